@@ -130,7 +130,7 @@ fn add_folder(folder: &Path, library: &mut Library) -> Result<(), Problem> {
 fn read(file: &Path) -> Result<Vec<Program>, Problem> {
     let bytes = read_bytes(file, INPUT_MIB)?;
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    Ok(Program::read(&name, &folder_of(file).display().to_string(), &bytes))
+    Ok(Program::read(&name, &folder_of(file).display().to_string(), bytes))
 }
 
 fn folder_of(file: &Path) -> &Path {

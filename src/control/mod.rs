@@ -167,6 +167,10 @@ pub struct Changes {
     pub shared: bool,
     /// The PLC has scanned since the last cycle, or there is no PLC program: it has seen what the control had output.
     pub scanned: bool,
+    /// The newest cycle of the control that the PLC had seen when it wrote what the control reads now; `None` if the PLC has not scanned since.
+    pub seen: Option<u64>,
+    /// The PLC sees what the control writes later than in the next cycle (`from_nck_delay`).
+    pub is_late: bool,
 }
 
 /// A machine datum that became active, with the event that activated it.

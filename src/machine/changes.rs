@@ -7,38 +7,59 @@ use crate::control::{Activated, Changes};
 use crate::image::{Interface, Location, Memory, Part};
 use crate::plant::Input;
 use crate::trace::{By, Change, NoEffect, Row};
-use crate::units::{AxisNumber, AxisSet};
+use crate::units::{AxisNumber, AxisSet, Time};
 use crate::variables::{EventId, Happening, Place};
 
 impl Machine {
     /// The differences of the PLC's half from the last cycle, as the control sees it.
     pub(super) fn plc_changes(&mut self, scanned: bool) -> Changes {
-        let written = self.written_changes(scanned);
+        let seen = self.seen_by_the_plc(scanned);
+        let is_late = self.definition.delays[1] > Time::ZERO;
+        let of = |(axes, shared)| Changes { axes, shared, scanned, seen, is_late };
+        let written = self.written_changes();
         let State { to_nck, memory, .. } = &mut self.state;
         to_nck.advance(&memory.to_nck);
-        let Some(before) = to_nck.seen_before() else { return written };
+        let Some(before) = to_nck.seen_before() else { return of(written) };
         let now: &[u8] = to_nck.seen(&memory.to_nck);
         if now == &**before {
-            return Changes { axes: AxisSet::NONE, shared: false, scanned };
+            return of((AxisSet::NONE, false));
         }
-        let (axes, shared) = self.definition.names.interface().plc_changes(before, now);
-        Changes { axes, shared, scanned }
+        of(self.definition.names.interface().plc_changes(before, now))
     }
 
-    /// The differences of the PLC's half from the end of the last cycle.
-    fn written_changes(&mut self, scanned: bool) -> Changes {
+    /// The newest cycle that the PLC had seen in the scan of which the control has the bytes now, if there is a new one.
+    fn seen_by_the_plc(&mut self, scanned: bool) -> Option<u64> {
+        let cycle = self.state.cycle;
+        let [to_nck, from_nck] = self.definition.delay_cycles(self.cycle_time());
+        let in_scan = |scan: u64| scan.saturating_sub(1 + from_nck);
+        if to_nck == 0 {
+            return scanned.then(|| in_scan(cycle));
+        }
+        let scans = &mut self.state.plc.scans;
+        if scanned {
+            scans.push_back(cycle);
+        }
+        let mut seen = None;
+        while let Some(scan) = scans.front().copied().filter(|scan| scan + to_nck <= cycle) {
+            scans.pop_front();
+            seen = Some(in_scan(scan));
+        }
+        seen
+    }
+
+    /// The differences of the PLC's half from the end of the last cycle: axes, and whether another block changed.
+    fn written_changes(&mut self) -> (AxisSet, bool) {
         let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
         let now: &[u8] = &self.state.memory.to_nck;
         self.before.plc_wrote = true;
         let Some((_, before)) = before else {
-            return Changes { axes: AxisSet::ALL, shared: true, scanned };
+            return (AxisSet::ALL, true);
         };
         if now == before {
             self.before.plc_wrote = false;
-            return Changes { axes: AxisSet::NONE, shared: false, scanned };
+            return (AxisSet::NONE, false);
         }
-        let (axes, shared) = self.definition.names.interface().plc_changes(before, now);
-        Changes { axes, shared, scanned }
+        self.definition.names.interface().plc_changes(before, now)
     }
 
     /// Records the writes from outside that the PLC program overwrote in this step.

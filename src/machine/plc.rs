@@ -1,5 +1,7 @@
 //! Whether the PLC of a machine runs, and the time of its next scan.
 
+use std::collections::VecDeque;
+
 use serde::{Deserialize, Serialize};
 
 use crate::units::Time;
@@ -14,6 +16,8 @@ pub(super) struct PlcState {
     /// NC cycles until the next scan.
     pub(super) wait: u64,
     pub(super) last_scan: Time,
+    /// The scans whose writes have not reached the control (`to_nck_delay`), by their cycles.
+    pub(super) scans: VecDeque<u64>,
     /// The fault of its program.
     pub(super) fault: Option<String>,
 }

@@ -247,6 +247,7 @@ impl Machine {
         self.state.memory = memory;
         let cycle = self.cycle_time();
         (self.state.to_nck, self.state.from_nck) = self.definition.delays(cycle, &self.state.memory);
+        self.state.plc.scans.clear();
         self.state.variables = crate::variables::Variables::default();
         self.state.forces.clear();
         self.before.written.clear();

@@ -15,7 +15,8 @@ use super::expression::Expression;
 use super::functions::Modal;
 use super::head::{Head, word};
 use super::interpreter::{first_statement, taken};
-use super::known::Known;
+use super::known::{Known, Last};
+use super::macros::{Macro, define, expanded, is_definition};
 use super::names::AxisNames;
 use super::operator::{Operator, binary};
 use super::prepared::End;
@@ -70,6 +71,7 @@ pub fn check(program: &Program, library: &Library, axes: &AxisNames, dialect: &'
         is_at_start: true,
         is_straight: true,
         last: Last::Nothing,
+        macros: Vec::new(),
         findings: Vec::new(),
     };
     for line in 1..=program.count() {
@@ -78,18 +80,6 @@ pub fn check(program: &Program, library: &Library, axes: &AxisNames, dialect: &'
     checker.end();
     checker.findings.sort_by_key(CheckFinding::place);
     checker.findings
-}
-
-/// What the last statement of the text does at its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Last {
-    Nothing,
-    /// It ends the program, or the program never goes on behind it.
-    Ends,
-    /// The program goes on behind it.
-    GoesOn,
-    /// It has an error.
-    Unknown,
 }
 
 struct Checker<'a> {
@@ -106,6 +96,7 @@ struct Checker<'a> {
     /// No label, jump, call or control structure has come yet.
     is_straight: bool,
     last: Last,
+    macros: Vec<Macro>,
     findings: Vec<CheckFinding>,
 }
 
@@ -118,6 +109,16 @@ impl Checker<'_> {
             return;
         }
         self.is_straight &= head.label.is_none();
+        if is_definition(text, head.rest) {
+            self.last = Last::GoesOn;
+            if let Err(fault) = define(&mut self.macros, text, head.rest, self.has_begun, self.dialect) {
+                self.raise(fault, &head, line, text);
+            }
+            self.is_at_start = false;
+            return;
+        }
+        let replaced = expanded(text, head.rest, &self.macros, self.dialect);
+        let text = replaced.as_deref().unwrap_or(text);
         let result = parse(text, self.dialect, self.known.axes);
         let structure = bracket(text, head.rest, self.dialect);
         if let Some(bracket) = structure {
@@ -129,8 +130,7 @@ impl Checker<'_> {
         let block = match result {
             Ok(block) => block,
             Err(fault) => {
-                self.known.is_incomplete |=
-                    ["DEF", "DEFINE", "PROC"].contains(&word(text, head.rest).to_uppercase().as_str());
+                self.known.is_incomplete |= ["DEF", "PROC"].contains(&word(text, head.rest).to_uppercase().as_str());
                 self.last = Last::Unknown;
                 self.raise(fault, &head, line, text);
                 return;

@@ -122,7 +122,6 @@ const REFUSED: &[(&str, &str)] = &[
     ("CTABDEF", COUPLINGS),
     ("CTABEND", COUPLINGS),
     ("CTRANS", FRAMES),
-    ("DEFINE", MACROS),
     ("DELETE", FILES),
     ("DISABLE", INTERRUPTS),
     ("DRIVE", OTHERS),

@@ -13,6 +13,7 @@ use super::environment::Environment;
 use super::evaluate::evaluate;
 use super::expression::Expression;
 use super::head::Head;
+use super::macros::{define, expanded, is_definition};
 use super::names::AxisNames;
 use super::prepared::{Block, End, Origin, Prepared};
 use super::scope::{Place, Running, write};
@@ -101,6 +102,17 @@ impl Interpreter {
                 return Ok(Prepared::Waits(origin));
             }
             self.is_stopped = false;
+            if is_definition(text, head.rest) {
+                if let Some(level) = self.levels.last_mut() {
+                    define(&mut level.macros, text, head.rest, level.has_begun, dialect).map_err(alarm)?;
+                    (level.line, level.is_at_start) = (line.saturating_add(1), false);
+                }
+                return Ok(Prepared::Calculated(origin));
+            }
+            let macros = self.levels.last().map_or(&[][..], |level| &level.macros);
+            let replaced = expanded(text, head.rest, macros, dialect);
+            let text = replaced.as_deref().unwrap_or(text);
+            let alarm = |fault: Fault| fault.alarm(&origin.program, &origin.name, line, text);
             let block = parse(text, dialect, &axes).map_err(alarm)?;
             if waits(&block.statement) && !environment.is_executed() {
                 return Ok(Prepared::Waits(origin));
@@ -445,6 +457,7 @@ impl Level {
         (self.is_at_start, self.has_begun) = (true, false);
         self.variables.truncate(self.parameters);
         self.structures.clear();
+        self.macros.clear();
         self.repetitions.clear();
     }
 }

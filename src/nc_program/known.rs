@@ -48,3 +48,15 @@ impl Scope for Known<'_> {
         Ok(Term::unknown())
     }
 }
+
+/// What the last statement of the text does at its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Last {
+    Nothing,
+    /// It ends the program, or the program never goes on behind it.
+    Ends,
+    /// The program goes on behind it.
+    GoesOn,
+    /// It has an error.
+    Unknown,
+}

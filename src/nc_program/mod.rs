@@ -53,6 +53,7 @@ mod functions;
 mod head;
 mod interpreter;
 mod known;
+mod macros;
 mod names;
 mod operator;
 mod prepared;

@@ -42,11 +42,29 @@ impl Scope for Running<'_> {
 
     fn system(&mut self, name: &str, indices: &[Term], at: Span) -> Result<Term, Fault> {
         let indices: Vec<_> = indices.iter().map(|term| term.value.clone()).collect();
+        if let Some(value) = self.of_the_levels(name, &indices, at)? {
+            return Ok(Term::known(value));
+        }
         read_system(self.environment, name, &indices, at).map(Term::known)
     }
 }
 
 impl Running<'_> {
+    /// `$P_STACK`, the program level, and `$P_PROG[level]`, the name of a program.
+    fn of_the_levels(&self, name: &str, indices: &[Value], at: Span) -> Result<Option<Value>, Fault> {
+        let highest = self.levels.len().saturating_sub(1);
+        match (name, indices) {
+            ("$P_STACK", []) => Ok(Some(Value::Int(i32::try_from(highest).unwrap_or(i32::MAX)))),
+            ("$P_PROG", [level]) => {
+                let level = usize::try_from(index(level, at)?).ok().and_then(|level| self.levels.get(level));
+                let level = level.ok_or_else(|| Fault::new(17020, at, format!("the levels are 0 to {highest}")))?;
+                let file = level.program.rsplit('/').next().unwrap_or_default();
+                Ok(Some(Value::Text(format!("_N_{}", file.replace('.', "_")))))
+            }
+            _ => Ok(None),
+        }
+    }
+
     /// The variable of this name in the innermost level, with its level and its place there.
     pub(super) fn find(&self, name: &str, at: Span) -> Result<(usize, usize, &Variable), Fault> {
         let found = self.levels.last().and_then(|level| {

@@ -39,7 +39,7 @@ impl Program {
     /// `folder` is where the file lies: subprograms are searched there first.
     #[must_use]
     pub fn new(name: &str, kind: ProgramKind, folder: &str, bytes: &[u8]) -> Self {
-        Self::of_text(name, kind, folder, decoded(bytes), 0)
+        Self::of_text(name, kind, folder, decoded(bytes.to_vec()), 0)
     }
 
     fn of_text(name: &str, kind: ProgramKind, folder: &str, mut text: String, lines_before: u32) -> Self {
@@ -47,7 +47,7 @@ impl Program {
             let end = (0..=LARGEST).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
             text.truncate(end);
         }
-        let mut lines = Vec::new();
+        let mut lines = Vec::with_capacity(text.bytes().filter(|byte| *byte == b'\n').count() + 1);
         let mut start = 0;
         for line in text.split_inclusive('\n') {
             lines.push(u32::try_from(start).unwrap_or(u32::MAX));
@@ -59,9 +59,13 @@ impl Program {
     /// All programs of a file. In an ASCII archive each begins with `%_N_NAME_MPF` or `_SPF` alone on a line and, after it, `;$PATH=…`;
     /// neither belongs to the program. A file without such a line is one program with the name of the file.
     #[must_use]
-    pub fn read(file: &str, folder: &str, bytes: &[u8]) -> Vec<Self> {
+    pub fn read(file: &str, folder: &str, bytes: impl Into<Vec<u8>>) -> Vec<Self> {
         let kind = if file.to_ascii_uppercase().ends_with("SPF") { ProgramKind::Sub } else { ProgramKind::Main };
-        let text = decoded(bytes);
+        let text = decoded(bytes.into());
+        if !text.split_inclusive('\n').any(|line| header(line).is_some()) {
+            // A large program is not copied.
+            return vec![Self::of_text(file, kind, folder, text, 0)];
+        }
         let mut programs: Vec<Self> = Vec::new();
         let mut found: Option<(String, ProgramKind)> = None;
         let (mut start, mut first_line, mut path) = (0, 0, None);
@@ -200,12 +204,11 @@ fn header(line: &str) -> Option<(String, ProgramKind)> {
     main.or_else(|| name.strip_suffix("_SPF").map(|name| (name.to_owned(), ProgramKind::Sub)))
 }
 
-fn decoded(bytes: &[u8]) -> String {
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
+fn decoded(mut bytes: Vec<u8>) -> String {
+    if bytes.starts_with(b"\xEF\xBB\xBF") {
+        bytes.drain(..3);
     }
+    String::from_utf8(bytes).unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| char::from(byte)).collect())
 }
 
 /// A call that looks for a program.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::functions::Modal;
+use super::macros::Macro;
 use super::names::AxisIndex;
 use super::search::{BlockTarget, StructureKind};
 use super::source::Program;
@@ -49,6 +50,8 @@ pub(super) struct Level {
     pub(super) saved: Option<Saved>,
     pub(super) is_single_block_off: bool,
     pub(super) is_display_off: bool,
+    /// DEFINE.
+    pub(super) macros: Vec<Macro>,
 }
 
 /// An open control structure.
@@ -93,6 +96,7 @@ impl Level {
             saved: None,
             is_single_block_off: false,
             is_display_off: false,
+            macros: Vec::new(),
         }
     }
 

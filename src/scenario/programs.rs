@@ -21,6 +21,8 @@ const IN_PLACE: &str = "_N_SCENARIO_DIR";
 pub(super) struct NcPrograms {
     loaded: Vec<Program>,
     folders: Vec<PathBuf>,
+    /// Files that are read already.
+    files: Vec<PathBuf>,
     search_path: Vec<String>,
     /// Programs with their text in the scenario, and their paths.
     texts: Vec<(Box<str>, String)>,
@@ -43,6 +45,7 @@ impl NcPrograms {
             return Err(place.problem(format!("expected an NC program in {name}, found nothing"), "write its blocks"));
         };
         self.loaded.extend(own);
+        self.files.push(file.clone());
         let parent = file.parent().unwrap_or_else(|| Path::new(""));
         self.read_folder(parent, &folder).map_err(|problem| problem.at(place))?;
         Ok(first)
@@ -96,6 +99,9 @@ impl NcPrograms {
         }
         files.sort();
         for file in files {
+            if self.files.contains(&file) {
+                continue;
+            }
             self.loaded.extend(read(&file, name)?);
         }
         Ok(())
@@ -114,5 +120,5 @@ fn read(file: &Path, folder: &str) -> Result<Vec<Program>, Problem> {
     }
     let bytes = fs::read(file).map_err(|error| problem(&error))?;
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    Ok(Program::read(&name, folder, &bytes))
+    Ok(Program::read(&name, folder, bytes))
 }

@@ -364,7 +364,7 @@ impl Nck {
         state.select_parameter_sets(parameters, to_nck, resting);
         state.enable(parameters, to_nck, resting);
         state.select_functions(parameters, to_nck, resting);
-        self.run_programs(to_nck, changes.scanned);
+        self.run_programs(to_nck, &changes);
         self.position_single_axes(changes.axes, to_nck);
         let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
         let mut next = 0;

@@ -84,6 +84,7 @@ rules! {
     ChannelAtRest "channel" "no axis of the channel moves or is to move";
     // Modes.
     ModeSelected "O-19" "mode";
+    ModeRefused "16913" "mode change while a program runs or is stopped";
     MachineFunction "O-19" "machine function";
     KeysWithoutJog "O-19" "traversing keys have no effect in this mode or machine function";
     StrobeOwnedByHmi "E-01" "DB11.DBB5 was written from outside and belongs to the HMI from now on";
@@ -110,6 +111,10 @@ rules! {
     SingleBlock "program" "single block: stop after the block";
     ProgramTest "program test" "selected or deselected while no program runs";
     LevelAborted "program" "program level abort: back to the caller";
+    StartedByProgram "program" "START of another channel: the program begins";
+    WaitBegins "program" "waits for another channel";
+    WaitEnds "program" "the other channels are there: the program goes on";
+    ActionRefused "synchronised" "a synchronised action cannot act";
     SearchStarted "search" "block search begins";
     SearchFound "search" "block found";
     SearchMissed "search" "the program has ended before the block";

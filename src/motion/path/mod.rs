@@ -15,6 +15,8 @@
 
 mod angle;
 mod axes;
+mod block;
+mod soft;
 #[cfg(test)]
 mod tests;
 mod way;
@@ -24,13 +26,14 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 pub use axes::{PATH_AXES, PathLimits, PerPathAxis};
+use block::HALF_AN_INCREMENT;
+pub use block::{Feed, PathBlock};
+pub use soft::LONGEST_WINDOW;
+use soft::Soft;
 pub use way::{Circle, RadiiDiffer, Turn, Way};
 
 /// The number of blocks that a path takes. Looking further ahead changes nothing unless they are shorter than one braking distance together.
 pub const BLOCKS: usize = 64;
-
-/// A block that ends within this distance has ended.
-const HALF_AN_INCREMENT: f64 = 0.5;
 
 /// Why a path does not take a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,15 +44,6 @@ pub enum Refused {
     NoWay,
 }
 
-/// The feed of a block.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Feed {
-    /// A programmed velocity along the way, in increments per second, to which the feed override applies.
-    Programmed(f64),
-    /// As fast as the axes can, to which the rapid traverse override applies.
-    Rapid,
-}
-
 /// The overrides of a cycle, as factors; 0 holds the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overrides {
@@ -57,19 +51,6 @@ pub struct Overrides {
     pub feed: f64,
     /// Of rapid traverse.
     pub rapid: f64,
-}
-
-/// One block of a path.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PathBlock {
-    /// A number by which the control recognises the block.
-    pub number: u64,
-    /// Its geometry.
-    pub way: Way,
-    /// Its feed.
-    pub feed: Feed,
-    /// The path stops at its end.
-    pub exact_stop: bool,
 }
 
 /// A block with what is computed once.
@@ -114,13 +95,15 @@ pub struct Path {
     velocity: f64,
     /// The first block has ended with an exact stop, and the control has not continued.
     stands: bool,
+    /// SOFT: what follows the plan.
+    soft: Option<Box<Soft>>,
 }
 
 impl Path {
     /// A path at rest at this position.
     #[must_use]
     pub fn new(position: PerPathAxis, limits: PathLimits) -> Self {
-        Self { limits, blocks: VecDeque::new(), position, distance: 0.0, velocity: 0.0, stands: false }
+        Self { limits, blocks: VecDeque::new(), position, distance: 0.0, velocity: 0.0, stands: false, soft: None }
     }
 
     /// Appends a block that begins where the last one ends. `cycle` is in seconds.
@@ -140,7 +123,23 @@ impl Path {
             Some(_) | None => 0.0,
         };
         self.blocks.push_back(Planned { block, velocity, acceleration, corner, stopped: false });
+        if let Some(soft) = &mut self.soft {
+            soft.append(block);
+        }
         Ok(())
+    }
+
+    /// Changes the limits; they act on blocks that are appended later.
+    pub fn set_limits(&mut self, limits: PathLimits) {
+        self.limits = limits;
+    }
+
+    /// Limits the jerk of an empty path: accelerations become ramps over this number of cycles. 1 is no limit.
+    pub fn set_jerk_window(&mut self, window: usize) {
+        if !self.is_empty() || self.soft.as_ref().map_or(1, |soft| soft.window()) == window {
+            return;
+        }
+        self.soft = (window > 1).then(|| Box::new(Soft::new(window)));
     }
 
     /// The largest velocity with which the path passes from one way to the next.
@@ -160,26 +159,33 @@ impl Path {
     /// The block that moves or stands at its end, and the distance that is left of it, in increments.
     #[must_use]
     pub fn current(&self) -> Option<(&PathBlock, f64)> {
+        if let Some(soft) = &self.soft {
+            return soft.current().map(|(block, distance)| (block, block.way.length() - distance));
+        }
         let planned = self.blocks.front()?;
         Some((&planned.block, planned.block.way.length() - self.distance))
     }
 
     /// The velocity along the way, in increments per second.
     #[must_use]
-    pub const fn velocity(&self) -> f64 {
-        self.velocity
+    pub fn velocity(&self) -> f64 {
+        match &self.soft {
+            // The axes begin to move a little later than the plan.
+            Some(soft) if self.velocity > 0.0 || !soft.is_settled() => soft.velocity().max(f64::MIN_POSITIVE),
+            Some(_) | None => self.velocity,
+        }
     }
 
     /// Whether a block stands at its exact stop until [`Path::go_on`].
     #[must_use]
-    pub const fn stands(&self) -> bool {
-        self.stands
+    pub fn stands(&self) -> bool {
+        self.stands && self.soft.as_ref().is_none_or(|soft| soft.stands())
     }
 
     /// Whether there is nothing left to move.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.blocks.is_empty()
+        self.blocks.is_empty() && self.soft.as_ref().is_none_or(|soft| soft.is_empty())
     }
 
     /// Drops the blocks behind the first one.
@@ -187,6 +193,9 @@ impl Path {
     /// The first block then ends at rest, so call this only at rest.
     pub fn keep_first(&mut self) {
         self.blocks.truncate(1);
+        if let Some(soft) = &mut self.soft {
+            soft.keep_first();
+        }
     }
 
     /// Gives each block another feed, by its number and its feed.
@@ -227,7 +236,7 @@ impl Path {
 
     /// Puts a path without blocks at a position.
     pub fn place(&mut self, position: PerPathAxis) {
-        if self.blocks.is_empty() {
+        if self.is_empty() {
             self.position = position;
         }
     }
@@ -240,15 +249,23 @@ impl Path {
 
     /// The axes are in position: the block that stands at its exact stop is over.
     pub fn go_on(&mut self) {
-        if std::mem::take(&mut self.stands) {
+        if self.stands() {
+            self.stands = false;
             self.blocks.pop_front();
             self.distance = 0.0;
+            if let Some(soft) = &mut self.soft {
+                soft.go_on();
+            }
         }
     }
 
     /// The direction of each axis in the present block: its movement per increment of the way, at its present place.
     #[must_use]
     pub fn direction(&self) -> PerPathAxis {
+        if let Some(soft) = &self.soft {
+            let current = soft.current();
+            return current.map_or_else(PerPathAxis::default, |(block, distance)| block.way.direction_at(distance));
+        }
         self.blocks.front().map_or_else(PerPathAxis::default, |planned| planned.block.way.direction_at(self.distance))
     }
 
@@ -256,10 +273,22 @@ impl Path {
     pub fn clear(&mut self) {
         self.blocks.clear();
         (self.distance, self.velocity, self.stands) = (0.0, 0.0, false);
+        if let Some(soft) = &mut self.soft {
+            soft.clear();
+        }
     }
 
     /// One cycle, in seconds.
     pub fn step(&mut self, overrides: Overrides, cycle: f64) -> Moved {
+        let planned = self.plan(overrides, cycle);
+        let Some(soft) = &mut self.soft else { return planned };
+        let (position, ended) = soft.step(self.distance, cycle);
+        self.position = position.unwrap_or(self.position);
+        Moved { position: self.position, ended }
+    }
+
+    /// One cycle of the plan; without a jerk limit the axes follow it at once.
+    fn plan(&mut self, overrides: Overrides, cycle: f64) -> Moved {
         let mut ended = 0;
         let Some(first) = self.blocks.front() else {
             self.velocity = 0.0;
@@ -277,10 +306,14 @@ impl Path {
             let length = planned.block.way.length();
             let over = self.distance - length;
             if over < -HALF_AN_INCREMENT {
-                self.position = planned.block.way.at(self.distance);
+                if self.soft.is_none() {
+                    self.position = planned.block.way.at(self.distance);
+                }
                 break;
             }
-            self.position = planned.block.way.end();
+            if self.soft.is_none() {
+                self.position = planned.block.way.end();
+            }
             let last = self.blocks.len() == 1;
             if planned.stops() || last {
                 self.velocity = 0.0;
@@ -291,6 +324,9 @@ impl Path {
             }
             ended += 1;
             self.blocks.pop_front();
+            if let Some(soft) = &mut self.soft {
+                soft.pass_planned(length);
+            }
             self.distance = if last { 0.0 } else { over.max(0.0) };
         }
         Moved { position: self.position, ended }

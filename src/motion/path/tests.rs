@@ -297,3 +297,49 @@ proptest! {
         prop_assert_eq!(before, blocks.last().unwrap().way.end());
     }
 }
+
+/// SOFT: 100 mm at 100 mm/s and 1 m/s². A window of 50 cycles takes 49 cycles longer, keeps the acceleration, and makes ramps of it: the jerk is the
+/// acceleration over 50 cycles.
+#[test]
+fn a_jerk_window_spreads_each_change_of_the_acceleration() {
+    const CYCLE: f64 = 0.002;
+    let limits = PathLimits { velocity: [1e9; PATH_AXES], acceleration: [1e9; PATH_AXES], overload: [1.0; PATH_AXES] };
+    let run = |window: usize| {
+        let mut path = Path::new([0.0; PATH_AXES], limits);
+        path.set_jerk_window(window);
+        let mut counted = [false; PATH_AXES];
+        counted[0] = true;
+        let mut start = [0.0; PATH_AXES];
+        for (number, x) in [40e6, 100e6].into_iter().enumerate() {
+            let mut end = [0.0; PATH_AXES];
+            end[0] = x;
+            let way = Way::line(start, end, counted);
+            let feed = Feed::Programmed(100e6);
+            path.append(PathBlock { number: number as u64, way, feed, exact_stop: number == 1 }, CYCLE).unwrap();
+            start = end;
+        }
+        let (mut cycles, mut ended) = (0, 0);
+        let (mut before, mut velocity, mut acceleration) = (0.0, 0.0, 0.0);
+        let (mut most, mut jerk) = (0.0_f64, 0.0_f64);
+        while !path.stands() {
+            let moved = path.step(Overrides { feed: 1.0, rapid: 1.0 }, CYCLE);
+            ended += moved.ended;
+            cycles += 1;
+            let now = (moved.position[0] - before) / CYCLE;
+            let rate = (now - velocity) / CYCLE;
+            (most, jerk) = (most.max(rate.abs()), jerk.max((rate - acceleration).abs() / CYCLE));
+            (before, velocity, acceleration) = (moved.position[0], now, rate);
+            assert!(cycles < 10_000);
+        }
+        path.go_on();
+        assert!(path.is_empty() && ended == 1 && path.velocity() <= 0.0);
+        assert_eq!(path.position()[0], 100e6);
+        (cycles, most, jerk)
+    };
+    let (plain, acceleration, _) = run(1);
+    let (soft, gentle, jerk) = run(50);
+    assert_eq!(soft, plain + 49);
+    // The last step of the plan ends between two cycles: its part of a cycle is smaller.
+    assert!(gentle <= acceleration * 1.001, "{gentle} {acceleration}");
+    assert!(jerk <= 1e9 / (50.0 * CYCLE) * 1.1, "{jerk}");
+}

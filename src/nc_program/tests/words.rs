@@ -195,7 +195,6 @@ fn functions_that_are_not_modelled_are_refused() {
         "MEAS=1",
         "SETMS(2)",
         "T=\"DRILL\"",
-        "DEFINE AB AS X5",
         "RET(1)",
     ] {
         let found = alarm(&format!("{text}\nM30"));

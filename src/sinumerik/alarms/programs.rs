@@ -90,6 +90,7 @@ alarms! {
     16820 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 ACN on an axis that is not modulo %3";
     16830 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 position outside the modulo range %3";
     16912 [DISPLAY] CancelKey "channel %1 action %2 only in the state reset";
+    16913 [DISPLAY] CancelKey "channel %2 action %3 only in the state reset";
     16919 [DISPLAY] CancelKey "channel %1 action %2 not allowed while an alarm is pending";
     16920 [DISPLAY] CancelKey "channel %1 action %2 already active";
     16924 [DISPLAY] CancelKey "channel %1 program test: caution, it changes tool data";
@@ -98,6 +99,8 @@ alarms! {
     16935 [DISPLAY] CancelKey "channel %1 action %2 not possible during a block search with program test";
     16936 [DISPLAY] CancelKey "channel %1 action %2 not possible while the dry run is active";
     16937 [DISPLAY] CancelKey "channel %1 action %2 not possible while a program test is active";
+    16942 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 START in a block search with program test";
+    16952 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 START not possible while MDA is active";
     17020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 first index is not valid";
     17030 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 second index is not valid";
     17040 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis index is wrong";
@@ -107,6 +110,8 @@ alarms! {
     17090 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 value is above the upper limit %3";
     17095 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 value is not valid";
     17180 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 tool offset number is wrong";
+    20140 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 synchronised action: the command axis %2 cannot move, alarm %3";
+    20141 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 synchronised action: axis %2 is moved by the program";
     22321 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 PRESET not allowed during motion";
 }
 
@@ -166,6 +171,20 @@ pub(in crate::sinumerik) const DURING_SERUPRO: AlarmNumber = AlarmNumber(16935);
 pub(in crate::sinumerik) const NOT_IN_DRY_RUN: AlarmNumber = AlarmNumber(16936);
 /// A block search with program test while a program test is active.
 pub(in crate::sinumerik) const NOT_IN_PROGRAM_TEST: AlarmNumber = AlarmNumber(16937);
+/// The program of INIT does not exist.
+pub(in crate::sinumerik) const PROGRAM_MISSING: AlarmNumber = AlarmNumber(14011);
+/// A wrong parameter, for example a channel that does not exist.
+pub(in crate::sinumerik) const WRONG_PARAMETER: AlarmNumber = AlarmNumber(14020);
+/// START in a block search with program test.
+pub(in crate::sinumerik) const START_IN_SERUPRO: AlarmNumber = AlarmNumber(16942);
+/// START of a channel whose mode group is in MDA.
+pub(in crate::sinumerik) const START_IN_MDA: AlarmNumber = AlarmNumber(16952);
+/// A command axis of a synchronised action that cannot move.
+pub(in crate::sinumerik) const COMMAND_AXIS: AlarmNumber = AlarmNumber(20140);
+/// A command axis that the program moves.
+pub(in crate::sinumerik) const COMMAND_AXIS_IN_MOTION: AlarmNumber = AlarmNumber(20141);
+/// A change between AUTOMATIC and MDA while a program runs or is stopped.
+pub(in crate::sinumerik) const MODE_ONLY_IN_RESET: AlarmNumber = AlarmNumber(16913);
 /// A program test begins.
 pub(in crate::sinumerik) const PROGRAM_TEST: AlarmNumber = AlarmNumber(16924);
 

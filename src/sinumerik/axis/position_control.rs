@@ -66,7 +66,8 @@ impl Nck {
         let is_delayed = branch.is_some();
         if let Some(branch) = branch {
             let movement = axis.setpoint.velocity() * cycle;
-            axis.branch = branch.pass(parameters.dynamics.feed_forward, set, movement, cycle);
+            let by_program = self.state.programs[parameters.channel].has_feed_forward();
+            axis.branch = branch.pass(parameters.dynamics.feed_forward(by_program), set, movement, cycle);
             axis.unsettled = axis.unsettled.wrapping_add(u32::from(branch.is_behind()));
         }
         // At the time at which the actual value was taken.
@@ -87,17 +88,18 @@ impl State {
         let cycle = parameters.servo_cycle;
         for (number, axis) in parameters.existing() {
             let dynamics = &axis.dynamics;
+            let by_program = self.programs[axis.channel].has_feed_forward();
             let shaping = &mut self.shaping[number];
-            if !dynamics.delays_setpoints() {
+            if !dynamics.delays_setpoints(by_program) {
                 self.axes[number].branch = (0.0, 0.0);
             }
-            if !dynamics.jerk.is_limited() && !dynamics.delays_setpoints() {
+            if !dynamics.jerk.is_limited() && !dynamics.delays_setpoints(by_program) {
                 *shaping = None;
                 continue;
             }
             let shaping = shaping.get_or_insert_default();
             shaping.prepare_jerk(&dynamics.jerk);
-            shaping.prepare_branch(dynamics, cycle);
+            shaping.prepare_branch(dynamics, by_program, cycle);
         }
     }
 }

@@ -71,8 +71,8 @@ impl Shaping {
         }
     }
 
-    pub(in crate::sinumerik) fn prepare_branch(&mut self, dynamics: &Dynamics, cycle: f64) {
-        if !dynamics.delays_setpoints() {
+    pub(in crate::sinumerik) fn prepare_branch(&mut self, dynamics: &Dynamics, by_program: bool, cycle: f64) {
+        if !dynamics.delays_setpoints(by_program) {
             self.branch = None;
             return;
         }

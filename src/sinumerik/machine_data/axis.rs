@@ -99,6 +99,8 @@ Axis {
     32420 JOG_AND_POS_JERK_ENABLE jog_and_pos_jerk_enable: bool = false; "", Range::ANY, Reset;
     /// largest jerk in JOG, referencing and of positioning axes; acceleration divided by it is the jerk time; 0 means no limit
     32430 JOG_AND_POS_MAX_JERK jog_and_pos_max_jerk: f64 = 100.0; "m/s3", Range::NOT_NEGATIVE, Reset;
+    /// jerk limit of the axis on a path with SOFT
+    32431 MAX_AX_JERK max_ax_jerk: f64 = 1_000.0; "m/s3", Range::POSITIVE, NewConf;
     /// backlash, active once the encoder is referenced; positive: the encoder leads the slide, as an encoder on the motor does
     32450 BACKLASH backlash: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, NewConf;
     /// factor of the backlash for each parameter set

@@ -21,6 +21,8 @@ Channel {
     20080 AXCONF_CHANAX_NAME_TAB axconf_chanax_name_tab: [String; 20] = default_names(); "", Range::ANY, PowerOn;
     /// function of each G group after power on, RESET and the end of a program; 0 takes the first
     20150 GCODE_RESET_VALUES gcode_reset_values: PerGroup = PerGroup::default(); "", Range::ANY, Reset;
+    /// jerk limit of the path with SOFT
+    20600 MAX_PATH_JERK max_path_jerk: f64 = 10_000.0; "m/s3", Range::POSITIVE, NewConf;
     /// NC start without reference: 0 allowed, 1 axes with MD34110 above -1 must be referenced (10203), 2 a restored position is sufficient
     /// in MDI and overstore
     20700 REFP_NC_START_LOCK refp_nc_start_lock: u8 = 1; "", Range::between(0.0, 2.0), Reset;
@@ -40,6 +42,8 @@ Channel {
     22020 AUXFU_ASSIGN_EXTENSION auxfu_assign_extension: [i32; 32] = [0; 32]; "", Range::ANY, PowerOn;
     /// value of an auxiliary function of the user; below 0: any
     22030 AUXFU_ASSIGN_VALUE auxfu_assign_value: [i32; 32] = [0; 32]; "", Range::ANY, PowerOn;
+    /// quick auxiliary functions (QU): 0 the block change waits for their acknowledgement, 1 it does not
+    22100 AUXFU_QUICK_BLOCKCHANGE auxfu_quick_blockchange: i32 = 0; "", Range::between(0.0, 1.0), PowerOn;
     /// H functions: 0 REAL, 1 DINT in DB21
     22110 AUXFU_H_TYPE_INT auxfu_h_type_int: i32 = 0; "", Range::ANY, PowerOn;
     /// output of M functions: 0 before the motion, 1 with it, 2 at the end of the block, 3 none, 4 as predefined

@@ -29,7 +29,7 @@ General {
     10704 DRYRUN_MASK dryrun_mask: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
     /// change of the skip levels (DB21.DBB2, 31.6, 31.7) while a program runs: 0 stopped at the end of a block, 1 at once with a short stop, 2 at the next STOPRE
     10706 SLASH_MASK slash_mask: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
-    /// block search with program test; bit 0: no stop at M0; bit 4: overrides are ignored
+    /// block search with program test; bit 0: no stop at M0; bit 1: START of another channel starts nothing, without 16942; bit 4: overrides are ignored
     10708 SERUPRO_MASK serupro_mask: u32 = 0; "", Range::ANY, PowerOn;
     /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions are selected by their signals (O-19)
     10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;

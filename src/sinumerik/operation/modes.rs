@@ -4,26 +4,37 @@
 //! selected; if all are 0, the mode does not change; DBX0.4 inhibits a change. Machine functions act within their mode: TEACH IN
 //! in MDA, REF and REPOS in JOG; REF has priority over REPOS. REPOS moves an axis back to the position at which a program was
 //! interrupted. As no program can be interrupted yet, its keys move nothing. MD10720 defines the mode after power on; the default
-//! is JOG.
+//! is JOG. AUTOMATIC and MDA exclude each other while a program of either runs or is stopped (16913).
 
 use crate::image::{Signal, ToNck, mode_group_from_nck, mode_group_to_nck};
+use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::inputs::mode_group_signal;
 use crate::sinumerik::operation::state::{MachineFunction, Mode, ModeGroup};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
-use crate::units::ModeGroupNumber;
-use crate::variables::{EventId, Input, Place};
+use crate::units::{ChannelNumber, ModeGroupNumber};
+use crate::variables::{EventId, Input, Parameter, Place, short_text};
 
 impl State {
     /// Selects modes and machine functions as requested.
     pub(in crate::sinumerik) fn select_modes(&mut self, parameters: &Parameters, to_nck: &ToNck) {
         for group in parameters.existing_mode_groups() {
-            self.select_mode(group, to_nck);
+            self.select_mode(group, parameters, to_nck);
         }
     }
 
-    fn select_mode(&mut self, group: ModeGroupNumber, to_nck: &ToNck) {
+    /// The channel of a group whose program hinders a change between AUTOMATIC and MDA: one of the other mode runs or is stopped.
+    fn hinders_mode(&self, group: ModeGroupNumber, mode: Mode, parameters: &Parameters) -> Option<ChannelNumber> {
+        let mut channels = parameters.existing_channels().filter(|(_, of)| *of == group);
+        let (channel, _) = channels.find(|(channel, _)| {
+            let run = self.programs[*channel].run.as_deref();
+            mode != Mode::Jog && run.is_some_and(|run| run.is_mda != (mode == Mode::Mda))
+        })?;
+        Some(channel)
+    }
+
+    fn select_mode(&mut self, group: ModeGroupNumber, parameters: &Parameters, to_nck: &ToNck) {
         let signals = &to_nck.mode_groups[group];
         let place = Place::ModeGroup(group);
         let input = |signal: Signal, value: bool| mode_group_signal(group, signal, value);
@@ -38,6 +49,22 @@ impl State {
         } else {
             None
         };
+        let hinders = requested.and_then(|(mode, input)| {
+            let change = mode != self.mode_groups[group].mode;
+            let channel = self.hinders_mode(group, mode, parameters).filter(|_| change)?;
+            Some((mode, input, channel))
+        });
+        let was_refused = self.mode_groups[group].refused;
+        self.mode_groups[group].refused = hinders.map(|(mode, ..)| mode);
+        if let Some((mode, input, channel)) = hinders
+            && was_refused != Some(mode)
+        {
+            let event = self.log.note_one(place, Rule::ModeRefused, input, self.programs[channel].cause);
+            let action = Parameter::Text(short_text("mode change"));
+            let shown = [Parameter::None, Parameter::Channel(channel), action, Parameter::None];
+            self.alarms.raise(alarms::MODE_ONLY_IN_RESET, place, shown, event);
+        }
+        let requested = requested.filter(|_| hinders.is_none());
         let state = &mut self.mode_groups[group];
         if let Some((mode, input)) = requested
             && mode != state.mode

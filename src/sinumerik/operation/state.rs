@@ -105,6 +105,8 @@ pub(in crate::sinumerik) struct ModeGroup {
     pub mode_cause: EventId,
     /// The event behind the machine function.
     pub function_cause: EventId,
+    /// The mode whose selection is refused: 16913 comes once.
+    pub refused: Option<Mode>,
     /// DB11.DBB5 was written from outside: the control no longer mirrors REF there (E-01).
     pub hmi_owns_strobe: bool,
 }

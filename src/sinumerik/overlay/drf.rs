@@ -128,7 +128,7 @@ impl State {
             let by = next.setpoint.position - axis.overlay.setpoint.position;
             axis.overlay = super::state::Overlay { cause, handwheels, ..next };
             if axis.measuring_system.is_some() {
-                axis.actual = axis.actual - by;
+                axis.actual -= by;
                 axis.monitor.shift(Position::ZERO - by);
             }
         }

@@ -145,25 +145,37 @@ fn whole_cycles(cycles: f64) -> usize {
 pub struct Dynamics {
     /// Jerk filters of its setpoint.
     pub jerk: Jerk,
-    /// MD32620 and MD32630.
+    /// MD32620, if MD32630 = 0.
     pub feed_forward: FeedForward,
+    /// MD32620, if MD32630 = 1: while the program has FFWON.
+    pub feed_forward_by_program: FeedForward,
     /// The parameter sets, the first one at index 0.
     pub sets: [ParameterSet; PARAMETER_SETS],
 }
 
 impl Dynamics {
+    /// The feedforward control, with FFWON of a program or without.
+    #[must_use]
+    pub fn feed_forward(&self, by_program: bool) -> FeedForward {
+        if by_program && self.feed_forward == FeedForward::Off {
+            self.feed_forward_by_program
+        } else {
+            self.feed_forward
+        }
+    }
+
     /// Whether the setpoint of position control differs from that of the interpolator in any parameter set.
     #[must_use]
-    pub fn delays_setpoints(&self) -> bool {
-        self.feed_forward != FeedForward::Off || self.sets.iter().any(|set| set.matching_time > 0.0)
+    pub fn delays_setpoints(&self, by_program: bool) -> bool {
+        self.feed_forward(by_program) != FeedForward::Off || self.sets.iter().any(|set| set.matching_time > 0.0)
     }
 
     /// The longest dead time of any parameter set, in seconds; 0 without one.
     #[must_use]
     pub fn longest_dead_time(&self) -> f64 {
-        match self.feed_forward {
-            FeedForward::Off | FeedForward::Pt1 => 0.0,
-            FeedForward::DeadTime => self.sets.iter().map(|set| set.balancing_time).fold(0.0, f64::max),
+        match (self.feed_forward, self.feed_forward_by_program) {
+            (FeedForward::Off | FeedForward::Pt1, FeedForward::Off | FeedForward::Pt1) => 0.0,
+            _ => self.sets.iter().map(|set| set.balancing_time).fold(0.0, f64::max),
         }
     }
 }
@@ -186,12 +198,13 @@ pub(in crate::sinumerik) fn dynamics(
     velocity: &impl Fn(f64) -> f64,
 ) -> Dynamics {
     let switched_by_programs = md.ffw_activation_mode != 0;
-    let feed_forward = match md.ffw_mode {
-        _ if switched_by_programs => FeedForward::Off,
+    let mode = match md.ffw_mode {
         0 => FeedForward::Off,
         1 | 2 => FeedForward::Pt1,
         _ => FeedForward::DeadTime,
     };
+    let (feed_forward, feed_forward_by_program) =
+        if switched_by_programs { (FeedForward::Off, mode) } else { (mode, FeedForward::Off) };
     let mechanics = Mechanics::new(md);
     let torque = matches!(md.ffw_mode, 2 | 4);
     let own = |value: f64| Position::from_user(value).user();
@@ -216,5 +229,5 @@ pub(in crate::sinumerik) fn dynamics(
             misfit: mechanics.misfit(actual, set),
         }
     });
-    Dynamics { jerk, feed_forward, sets }
+    Dynamics { jerk, feed_forward, feed_forward_by_program, sets }
 }

@@ -69,6 +69,8 @@ pub struct Parameters {
     pub exchange_after_wait: bool,
     /// MD10722 bit 3: the PLC requests only exclusive and permanent PLC axes.
     pub only_reserved_plc_axes: bool,
+    /// MD10708 bit 1: START in SERUPRO starts nothing, without 16942.
+    pub serupro_ignores_start: bool,
     /// The channels that exist, with their mode groups.
     pub(super) channel_list: ArrayVec<(ChannelNumber, ModeGroupNumber), { ChannelNumber::MAX as usize }>,
     /// The mode groups that have channels.
@@ -129,6 +131,7 @@ impl Parameters {
             exchange_after_wait: data.general.axchange_mask & 1 == 1,
             only_reserved_plc_axes: data.general.axchange_mask >> 3 & 1 == 1,
             command_only_in_motion: data.general.vdi_function_mask & 1 == 1,
+            serupro_ignores_start: data.general.serupro_mask & 2 == 2,
             search_waits_for_plc: data.general.search_run_mode & 1 == 1,
             existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
             channels: channels(data, &axes),
@@ -148,7 +151,7 @@ impl Parameters {
             sag,
             path_overrides: PathOverrides::new(data),
             programs: PerChannel::from_fn(|channel| {
-                data.mode_group(channel).map(|_| Box::new(programs(data, channel, &axes)))
+                data.mode_group(channel).map(|_| Box::new(programs(data, channel, &axes, cycle)))
             }),
             axes,
         }

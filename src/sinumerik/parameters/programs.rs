@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 
-use crate::motion::path::{Feed, PATH_AXES};
+use crate::motion::path::{Feed, LONGEST_WINDOW, PATH_AXES};
 use crate::nc_program::{AuxiliaryKind, AxisKind, AxisName, AxisNames, GFunction, Modal};
 use crate::sinumerik::machine_data::{Channel, MachineData};
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
-use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position, Time};
 
 /// When an auxiliary function is output (MD22200 to 22252).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,6 +132,8 @@ pub(in crate::sinumerik) struct ProgramParameters {
     output_times: [OutputTime; 7],
     /// MD22254 and MD22256.
     pub associated_stops: [i32; 2],
+    /// MD22100.
+    pub quick_is_free: bool,
     /// MD22110.
     pub whole_h_functions: bool,
     /// MD20800 bit 0: M17 and M30 of subprograms are output.
@@ -156,6 +158,8 @@ pub(in crate::sinumerik) struct ProgramParameters {
     pub serupro_ignores_overrides: bool,
     /// MD22600 and MD22601.
     pub serupro_speed: (u8, f64),
+    /// MD32431 and MD20600: the cycles over which SOFT spreads a change of the acceleration.
+    pub jerk_window: usize,
     /// SD42120 in mm/min.
     pub approach_feed: f64,
     /// MD22510.
@@ -229,6 +233,7 @@ pub(in crate::sinumerik) fn programs(
     data: &MachineData,
     channel: ChannelNumber,
     axes: &PerAxis<AxisParameters>,
+    cycle: Time,
 ) -> ProgramParameters {
     let md = &data.channels[channel];
     let setting = &data.channel_settings[channel];
@@ -249,14 +254,17 @@ pub(in crate::sinumerik) fn programs(
         (md.auxfu_h_sync_type, OutputTime::Before),
         (md.auxfu_f_sync_type, OutputTime::Never),
     ];
+    let own_axes = program_axes(data, md, channel, axes);
     ProgramParameters {
-        axes: program_axes(data, md, channel, axes),
+        jerk_window: jerk_window(data, &own_axes, axes, (md.max_path_jerk, cycle)),
+        axes: own_axes,
         r_parameters: u32::try_from(md.mm_num_r_param).unwrap_or(0),
         modal,
         circle_tolerance: Position::from_user(md.circle_error_const).increments() as f64,
         circle_tolerance_share: md.circle_error_factor,
         output_times: times.map(|(datum, predefined)| OutputTime::new(datum, predefined)),
         associated_stops: [md.auxfu_assoc_m0_value, md.auxfu_assoc_m1_value],
+        quick_is_free: md.auxfu_quick_blockchange == 1,
         whole_h_functions: md.auxfu_h_type_int == 1,
         outputs_end_of_subprogram: md.spf_end_to_vdi & 1 == 1,
         outputs_m1_only_active: md.spf_end_to_vdi & 2 == 2,
@@ -273,6 +281,26 @@ pub(in crate::sinumerik) fn programs(
         shown_groups: md.gcode_groups_to_plc,
         shows_groups_in_order: md.gcode_groups_to_plc_mode & 1 == 1,
     }
+}
+
+/// The window of SOFT in cycles: with it no axis exceeds MD32431, and the path not MD20600, at any acceleration that the axes can have.
+fn jerk_window(
+    data: &MachineData,
+    own: &ProgramAxes,
+    axes: &PerAxis<AxisParameters>,
+    (path_jerk, cycle): (f64, Time),
+) -> usize {
+    const METRE: f64 = 1_000.0 * Position::PER_USER_UNIT;
+    let turn = |axis: AxisNumber| if axes[axis].rotary { 360.0 * Position::PER_USER_UNIT } else { METRE };
+    let time = |axis: &AxisNumber| axes[*axis].maximum_acceleration / (data.axes[*axis].max_ax_jerk * turn(*axis));
+    let of_axes = own.path.iter().map(time).fold(0.0, f64::max);
+    let along = own.path.iter().enumerate().filter(|(place, _)| own.counted[*place]);
+    let squares: f64 = along.map(|(_, axis)| axes[*axis].maximum_acceleration * axes[*axis].maximum_acceleration).sum();
+    let seconds = of_axes.max(squares.sqrt() / (path_jerk * METRE));
+    let cycles = (seconds / cycle.seconds() - 1e-6).ceil();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates, and is bounded")]
+    let cycles = cycles as usize;
+    cycles.clamp(1, LONGEST_WINDOW)
 }
 
 fn program_axes(

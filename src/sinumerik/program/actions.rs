@@ -1,6 +1,9 @@
 //! What a block does besides moving and output: messages, PRESETON, NEWCONF, SETAL.
 
+use crate::motion::path::PathLimits;
 use crate::nc_program::Action;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::{BlockAlarm, Run, block_name, on_path};
 use crate::sinumerik::state::State;
@@ -29,6 +32,8 @@ impl State {
                 run.path.place(on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position));
             }
             Action::NewConfiguration => run.new_conf = true,
+            Action::Synchronised(action) => self.begin_action(*action, run, stage),
+            Action::Cancel(ids) => self.cancel_actions(&ids, stage),
             Action::CycleAlarm { number, text } => {
                 let text = text.unwrap_or_default();
                 let first = short_text(&text);
@@ -45,5 +50,24 @@ impl State {
             }
             _ => {}
         }
+    }
+}
+
+impl ProgramParameters {
+    /// The limits of the path with the accelerations that a block programs (ACC), in per cent of MD32300.
+    pub(super) fn accelerated(
+        &self,
+        mut limits: PathLimits,
+        actions: &[Action],
+        parameters: &Parameters,
+    ) -> PathLimits {
+        for action in actions {
+            let Action::Acceleration(name, percent) = action else { continue };
+            let axis = self.axes.machine_axes.get(usize::from(name.0));
+            if let Some((axis, place)) = axis.and_then(|axis| Some((axis, self.axes.place(*axis)?))) {
+                limits.acceleration[place] = parameters.axes[*axis].maximum_acceleration * percent / 100.0;
+            }
+        }
+        limits
     }
 }

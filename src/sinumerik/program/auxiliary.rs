@@ -1,8 +1,10 @@
 //! Output of auxiliary functions to the PLC (nc_programs.md 2.3 to 2.6): values and change bits in DB21.DBB58 to 193, decoded M functions in
 //! 194 to 206.
 //!
-//! A package is output in one cycle of the NCK and seen by the next scan of the PLC, for one scan. The NCK cycle of that scan takes it back: that
-//! is the acknowledgement. The next package follows at the earliest in the same cycle. Without a PLC program each cycle acknowledges.
+//! A package is output in one cycle of the NCK and shown for one scan of the PLC. It is acknowledged when the answer of a scan that has seen it has
+//! reached the NCK: in the cycle of the next scan, or later by `from_nck_delay` and `to_nck_delay` (O-28). Without a PLC program each cycle acknowledges.
+//! The next package follows after a cycle with change bits of 0. Functions with QU are acknowledged in the next cycle, without a scan; with
+//! MD22100 = 1 the program does not wait for them at all.
 //!
 //! Choices where the manuals leave one: an M function is decoded with extension 0, or 1 for M3 to M5, M19, M70 and M40 to M45 (nc_programs.md
 //! 2.5); values stay until the next output of their place. RESET does not withdraw what is output.
@@ -43,22 +45,43 @@ impl Entry {
 /// What is output in one PLC cycle.
 pub(in crate::sinumerik) type Package = ArrayVec<Entry, MOST>;
 
+/// A package that waits for its output.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Waiting {
+    package: Package,
+    cause: EventId,
+    /// The program does not wait for it.
+    is_free: bool,
+}
+
+/// A package whose acknowledgement is missing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Unacknowledged {
+    /// The cycle of its output.
+    cycle: u64,
+    /// All its functions are quick: acknowledged in the next cycle.
+    is_quick: bool,
+    /// The program does not wait for it.
+    is_free: bool,
+}
+
 /// The output of a channel.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Output {
     /// DB21.DBB58 to 206; empty before the first output.
     bytes: Vec<u8>,
-    waiting: VecDeque<(Package, EventId)>,
-    /// The package that the PLC has not acknowledged.
-    pending: bool,
+    waiting: VecDeque<Waiting>,
+    /// Change bits and decoded M functions are in the interface.
+    is_shown: bool,
+    unacknowledged: Option<Unacknowledged>,
     /// The event behind the last change.
     pub cause: EventId,
 }
 
 impl Output {
-    /// Whether something is output or waits for it.
+    /// Whether a program has to wait for something that is output or waits for it.
     pub(in crate::sinumerik) fn is_busy(&self) -> bool {
-        self.pending || !self.waiting.is_empty()
+        self.unacknowledged.is_some_and(|one| !one.is_free) || self.waiting.iter().any(|one| !one.is_free)
     }
 
     /// Whether something waits behind the package that is output.
@@ -66,21 +89,32 @@ impl Output {
         !self.waiting.is_empty()
     }
 
-    /// Adds a package, after the event that leads to it.
-    pub(in crate::sinumerik) fn add(&mut self, package: &Package, cause: EventId) {
+    /// Adds a package, after the event that leads to it. The program does not wait for quick functions if MD22100 = 1.
+    pub(in crate::sinumerik) fn add(&mut self, package: &Package, cause: EventId, quick_is_free: bool) {
         if !package.is_empty() {
-            self.waiting.push_back((package.clone(), cause));
+            let is_free = quick_is_free && is_quick(package);
+            self.waiting.push_back(Waiting { package: package.clone(), cause, is_free });
         }
     }
 
-    /// Whether the PLC has acknowledged a package, if it has scanned since.
-    pub(in crate::sinumerik) fn acknowledges(&self, scanned: bool) -> bool {
-        self.pending && scanned
+    /// Takes note of an acknowledgement: the PLC had seen this cycle when it wrote what the control reads now. Quick functions are acknowledged
+    /// in the cycle after their output.
+    pub(in crate::sinumerik) fn acknowledge(&mut self, cycle: u64, seen: Option<u64>) {
+        let is_acknowledged =
+            |one: &Unacknowledged| one.is_quick && one.cycle < cycle || seen.is_some_and(|seen| one.cycle <= seen);
+        if self.unacknowledged.as_ref().is_some_and(is_acknowledged) {
+            self.unacknowledged = None;
+        }
+    }
+
+    /// Whether change bits and decoded M functions have been shown for one scan.
+    pub(in crate::sinumerik) fn was_shown(&self, scanned: bool) -> bool {
+        self.is_shown && scanned
     }
 
     /// Takes change bits and decoded M functions back.
     pub(in crate::sinumerik) fn take_back(&mut self, cause: EventId) {
-        self.pending = false;
+        self.is_shown = false;
         self.cause = cause;
         let first = usize::from(signal::decoded_m_function_0.byte - ChannelAuxiliary::FIRST);
         // The change bits are bytes 58 to 67, the decoded M functions 194 to 206.
@@ -88,19 +122,20 @@ impl Output {
         self.bytes[first..].fill(0);
     }
 
-    /// Outputs the next package, if none is pending. Returns the event behind it.
-    pub(in crate::sinumerik) fn next(&mut self, whole_h_functions: bool) -> Option<EventId> {
-        if self.pending {
+    /// Outputs the next package in this cycle, if none is shown or unacknowledged. Returns the event behind it.
+    pub(in crate::sinumerik) fn next(&mut self, cycle: u64, whole_h_functions: bool) -> Option<EventId> {
+        if self.is_shown || self.unacknowledged.is_some() {
             return None;
         }
-        let (package, cause) = self.waiting.pop_front()?;
+        let Waiting { package, cause, is_free } = self.waiting.pop_front()?;
         if self.bytes.is_empty() {
             self.bytes = vec![0; BYTES];
         }
         for entry in &package {
             self.show(entry, whole_h_functions);
         }
-        self.pending = true;
+        self.is_shown = true;
+        self.unacknowledged = Some(Unacknowledged { cycle, is_quick: is_quick(&package), is_free });
         Some(cause)
     }
 
@@ -177,6 +212,11 @@ impl Output {
     fn set_bit(&mut self, byte: u16, bit: u8) {
         self.bytes[usize::from(byte - ChannelAuxiliary::FIRST)] |= 1 << bit;
     }
+}
+
+/// Whether all functions of a package are output with quick acknowledgement (QU).
+fn is_quick(package: &Package) -> bool {
+    package.iter().all(|entry| entry.is_quick)
 }
 
 /// The change bit and the quick bit of the first place of a kind.

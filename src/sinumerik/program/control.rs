@@ -205,6 +205,7 @@ impl State {
         let behind = run.queue.back().and_then(|block| block.behind()).unwrap_or(&run.behind);
         run.interpreter.clone_from(&behind.interpreter);
         run.axis_feeds.clone_from(&behind.axis_feeds);
+        run.path_override = behind.path_override;
         run.end = behind.end;
         run.preparation = Preparation::Reads;
     }

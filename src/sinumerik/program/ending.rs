@@ -3,6 +3,7 @@
 use crate::image::channel_to_nck;
 use crate::nc_program::{Action, End};
 use crate::sinumerik::inputs::channel_signal;
+use crate::sinumerik::parameters::programs::OutputTime;
 use crate::sinumerik::program::execution::Progress;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::{Criterion, Phase, ProgrammedStop, Run, block_name};
@@ -20,6 +21,10 @@ impl State {
         if run.dwell > 0 {
             // Runs on with feed disable; NC stop holds it.
             run.dwell -= 1;
+            return false;
+        }
+        if run.waits.is_some() {
+            self.show_wait(run, stage);
             return false;
         }
         if run.positionings.iter().any(|positioning| positioning.waits && block.positions.contains(positioning)) {
@@ -111,5 +116,16 @@ impl State {
             self.stop_program(channel, event);
         }
         Progress::Changed
+    }
+
+    /// Outputs the auxiliary functions of the block that runs which have this time; with MD20800 bit 1 M1 only while it stops.
+    pub(super) fn output(&mut self, run: &Run, time: OutputTime, stage: &Stage<'_>) {
+        if let Some(package) = run.queue.front().and_then(|block| block.output(time)) {
+            let mut package = package.clone();
+            if stage.own.outputs_m1_only_active && !stage.to_nck.channels[stage.channel].activate_m01() {
+                package.retain(|entry| !entry.is_optional_stop());
+            }
+            self.programs[stage.channel].output.add(&package, run.block_cause, stage.own.quick_is_free);
+        }
     }
 }

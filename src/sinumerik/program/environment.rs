@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::control;
 use crate::control::Owner;
 use crate::nc_program::{
-    AxisNames, Dialect, Environment, Library, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
+    AxisNames, Dialect, Environment, Library, Modal, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
 };
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::exchange::state::{Holder, Owners};
@@ -17,7 +17,8 @@ use crate::sinumerik::machine_data::{
 };
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
-use crate::sinumerik::program::state::{ChannelProgram, Run};
+use crate::sinumerik::program::main_run::MAIN_RUN_VARIABLES;
+use crate::sinumerik::program::state::{ChannelProgram, ProgramState, Run};
 use crate::sinumerik::single_axis::state::SingleAxes;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
 use crate::variables::RParameters;
@@ -42,6 +43,12 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub skips: u16,
     /// DB21.DBX384.0.
     pub restarts: bool,
+    /// Seconds since power on, and when the block that runs began.
+    pub now: f64,
+    pub block_begun: f64,
+    /// What holds after the last prepared block: G functions and the path feed.
+    pub modal: Modal,
+    pub feed: Option<f64>,
     /// $P_SEARCHL.
     pub search_level: u8,
     /// R parameters that were written, with their values before.
@@ -55,6 +62,7 @@ impl<'a> Channel<'a> {
     pub(in crate::sinumerik) fn take_run(&mut self, run: &Run) {
         self.end = run.end;
         self.is_executed = run.is_executed();
+        (self.modal, self.feed) = (run.interpreter.modal(), run.interpreter.feed());
     }
 
     fn axis(&self, value: Option<&Value>) -> Result<AxisNumber, Refusal> {
@@ -232,6 +240,31 @@ impl Environment for Channel<'_> {
                 let (index, axis) = self.settable_offset(variable)?;
                 Ok(length(self.program.settable_offset(index, axis)))
             }
+            "$P_GG" => {
+                let group = variable.indices.first().and_then(Value::number).unwrap_or(0.0);
+                if group.fract() != 0.0 || !(1.0..=64.0).contains(&group) {
+                    return Err(Refusal::FirstIndex);
+                }
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
+                let group = group as u8;
+                Ok(Value::Int(self.modal.index(group).into()))
+            }
+            "$P_F" => Ok(Value::Real(self.feed.unwrap_or(0.0))),
+            "$AC_PROG" => Ok(Value::Int(match self.program.state {
+                ProgramState::Aborted => 0,
+                ProgramState::Stopped => 1,
+                ProgramState::Running => 2,
+                ProgramState::Waiting => 3,
+                ProgramState::Interrupted => 4,
+            })),
+            "$AC_STAT" => Ok(Value::Int(match self.program.state {
+                ProgramState::Aborted => 0,
+                ProgramState::Stopped | ProgramState::Interrupted => 1,
+                ProgramState::Running | ProgramState::Waiting => 2,
+            })),
+            "$AC_TIME" => Ok(Value::Real(self.now - self.block_begun)),
+            "$AC_TIMER" => Ok(Value::Real(self.program.main_run.timer(main_run_index(variable)?, self.now))),
+            "$AC_MARKER" => Ok(Value::Int(self.program.main_run.marker(main_run_index(variable)?))),
             "$P_ISTEST" => Ok(Value::Bool(self.program.test.is_active)),
             "$P_SEARCH" => Ok(Value::Bool(self.search_level > 0)),
             "$P_SEARCHL" => Ok(Value::Int(self.search_level.into())),
@@ -261,6 +294,17 @@ impl Environment for Channel<'_> {
         }
         if let Some(element) = self.table(variable) {
             return self.write_table(element?, value);
+        }
+        if matches!(variable.name, "$AC_TIMER" | "$AC_MARKER") {
+            let index = main_run_index(variable)?;
+            let number = value.number().ok_or(Refusal::WrongType)?;
+            if variable.name == "$AC_TIMER" {
+                self.program.main_run.set_timer(index, number, self.now);
+            } else {
+                #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
+                self.program.main_run.set_marker(index, number.round() as i32);
+            }
+            return Ok(());
         }
         let Some(target) = self.datum(variable) else {
             let known = is_of_the_control(variable.name);
@@ -310,6 +354,17 @@ impl Environment for Channel<'_> {
     fn program(&self, path: &str) -> Option<Arc<Program>> {
         self.library.program(path)
     }
+}
+
+/// The index of `$AC_TIMER` and `$AC_MARKER`.
+fn main_run_index(variable: &SystemVariable<'_>) -> Result<u8, Refusal> {
+    let index = variable.indices.first().and_then(Value::number).ok_or(Refusal::FirstIndex)?;
+    if index.fract() != 0.0 || !(0.0..f64::from(MAIN_RUN_VARIABLES)).contains(&index) {
+        return Err(Refusal::FirstIndex);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
+    let index = index as u8;
+    Ok(index)
 }
 
 /// Whether the control has system variables that begin like this. A machine or setting datum that the catalogue does not know has no name

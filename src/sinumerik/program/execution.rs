@@ -10,6 +10,7 @@
 //! Then the program stops (M0, M1, single block, 7.2), ends (M2, M30), or goes on with the next block in the same cycle. In G64 the path passes
 //! from one block to the next without a stop as long as nothing has to be output before the next one, and nothing holds the change of blocks.
 
+use crate::control::Changes;
 use crate::image::ToNck;
 use crate::nc_program::{End, Library};
 use crate::sinumerik::alarms::programs::STILL_POSITIONED;
@@ -45,37 +46,45 @@ pub(super) enum Progress {
 
 /// What is only read while programs run.
 pub(super) struct Sources<'a> {
-    library: &'a Library,
-    stored: &'a MachineData,
-    written: &'a mut Vec<(Target, crate::control::Value)>,
-    tables: &'a mut Vec<(Element, TableValue)>,
+    pub library: &'a Library,
+    pub stored: &'a MachineData,
+    pub written: &'a mut Vec<(Target, crate::control::Value)>,
+    pub tables: &'a mut Vec<(Element, TableValue)>,
 }
 
 impl Nck {
-    /// The stage. `scanned` says whether the PLC has seen what was output before.
-    pub(in crate::sinumerik) fn run_programs(&mut self, to_nck: &ToNck, scanned: bool) {
+    /// The stage. `changes` says what the PLC has seen of the outputs.
+    pub(in crate::sinumerik) fn run_programs(&mut self, to_nck: &ToNck, changes: &Changes) {
         let (mut written, mut tables, mut new_conf) = (Vec::new(), Vec::new(), false);
         let (parameters, state) = (&*self.parameters, &mut *self.state);
+        state.end_waits(parameters);
+        let mut starts = Vec::new();
         for (channel, _) in parameters.existing_channels() {
             let Some(own) = parameters.programs[channel].as_deref() else { continue };
-            let acknowledged = state.acknowledge(channel, scanned);
+            let taken_back = state.acknowledge(channel, changes);
             if let Some(mut run) = state.programs[channel].run.take() {
                 let stage = Stage { channel, parameters, own, to_nck };
                 let (written, tables) = (&mut written, &mut tables);
                 let mut sources = Sources { library: &self.programs, stored: &self.stored, written, tables };
                 let stays = state.run_program(&mut run, &stage, &mut sources);
                 new_conf |= std::mem::take(&mut run.new_conf);
+                starts.append(&mut run.starts);
                 if stays {
                     state.programs[channel].run = Some(run);
                 } else {
                     state.return_axes(channel, state.programs[channel].cause, parameters);
                 }
             }
-            // The PLC sees change bits of 0 between two packages.
-            if !acknowledged && let Some(cause) = state.programs[channel].output.next(own.whole_h_functions) {
+            // The PLC sees change bits of 0 between two packages. If it sees them late, exactly one scan sees what is output from scan to scan.
+            let cycle = state.log.cycle;
+            let begins = !taken_back && (changes.scanned || !changes.is_late);
+            if begins && let Some(cause) = state.programs[channel].output.next(cycle, own.whole_h_functions) {
                 let event = state.log.now(Place::Channel(channel), cause, Rule::AuxiliaryOutput, [Input::None; 3]);
                 state.programs[channel].output.cause = event;
             }
+        }
+        for start in starts {
+            state.start_by_program(start, parameters, &self.programs, to_nck);
         }
         self.resting.hear_all(state.exchanged_axes(parameters));
         for (target, value) in written {
@@ -90,16 +99,17 @@ impl Nck {
 }
 
 impl State {
-    /// The PLC has seen what was output: it is taken back.
-    fn acknowledge(&mut self, channel: ChannelNumber, scanned: bool) -> bool {
+    /// What the PLC has seen is acknowledged; what was shown for one scan is taken back. Returns whether something was.
+    fn acknowledge(&mut self, channel: ChannelNumber, changes: &Changes) -> bool {
         let output = &mut self.programs[channel].output;
-        let acknowledges = output.acknowledges(scanned);
-        if acknowledges {
+        output.acknowledge(self.log.cycle, changes.seen);
+        let was_shown = output.was_shown(changes.scanned);
+        if was_shown {
             let before = output.cause;
             let event = self.log.note_plain(Place::Channel(channel), Rule::AuxiliaryAcknowledged, before);
             self.programs[channel].output.take_back(event);
         }
-        acknowledges
+        was_shown
     }
 
     /// One cycle of a program. Returns whether it is still there.
@@ -119,7 +129,9 @@ impl State {
         if runs && run.stopping.is_none() {
             self.hold_block_change(run, stage);
         }
+        self.run_actions(run, stage, sources);
         let ended = self.move_program(run, stage);
+        self.take_command_axes(run, stage);
         self.end_approach(run, stage);
         for _ in 0..ended {
             run.on_path -= 1;
@@ -202,7 +214,8 @@ impl State {
 
     /// Gives the path the blocks into which it can pass without a stop.
     fn lengthen_path(&mut self, run: &mut Run, stage: &Stage<'_>) {
-        let moves = run.phase == Phase::Moving && run.on_path > 0 && run.returning.is_none();
+        let moves =
+            run.phase == Phase::Moving && run.on_path > 0 && run.returning.is_none() && run.commanded.is_empty();
         if !moves || self.holds_block_change(run, stage) || run.deleting || run.change.is_some() {
             return;
         }
@@ -216,6 +229,16 @@ impl State {
                 || last.stop != ProgrammedStop::None
                 || !last.positions.is_empty()
                 || !last.references.is_empty();
+            // A fulfilled WAITMC behind the block that runs does not stop the path.
+            if run.on_path == 1
+                && next.is_only_action()
+                && next.actions.first().is_some_and(|action| self.passes_mark(action, stage.channel))
+            {
+                run.queue.remove(1);
+                run.executed += 1;
+                continue;
+            }
+            let stops = stops || next.modal.index(21) != last.modal.index(21);
             if outputs || stops || !next.is_plain() || !run.positionings.is_empty() {
                 return;
             }
@@ -251,21 +274,17 @@ impl State {
         let program = &self.programs[stage.channel];
         let place = Place::Channel(stage.channel);
         let event = self.log.note_one(place, Rule::BlockBegins, input, program.cause);
-        run.block_cause = event;
+        (run.block_cause, run.block_cycle) = (event, self.log.cycle);
         let modal = block.modal;
+        let feed = block.block.as_ref().and_then(|read| read.block.feed);
         let program = &mut self.programs[stage.channel];
+        program.last_feed = feed.or(program.last_feed);
         if program.modal != modal {
+            let switches = program.modal.index(24) != modal.index(24);
             (program.modal, program.modal_cause) = (modal, event);
-        }
-    }
-
-    fn output(&mut self, run: &Run, time: OutputTime, stage: &Stage<'_>) {
-        if let Some(package) = run.queue.front().and_then(|block| block.output(time)) {
-            let mut package = package.clone();
-            if stage.own.outputs_m1_only_active && !stage.to_nck.channels[stage.channel].activate_m01() {
-                package.retain(|entry| !entry.is_optional_stop());
+            if switches {
+                self.prepare_position_control(stage.parameters);
             }
-            self.programs[stage.channel].output.add(&package, run.block_cause);
         }
     }
 
@@ -277,7 +296,7 @@ impl State {
                 if self.programs[channel].output.is_busy() {
                     return Progress::Waits;
                 }
-                self.begin_motion(run, stage);
+                self.begin_motion(run, stage, sources);
                 Progress::Changed
             }
             Phase::Moving => {
@@ -331,6 +350,10 @@ impl State {
             program: &mut self.programs[stage.channel],
             skips: run.skips,
             restarts,
+            now: self.log.cycle as f64 * stage.parameters.cycle.seconds(),
+            block_begun: run.block_cycle as f64 * stage.parameters.cycle.seconds(),
+            modal: run.interpreter.modal(),
+            feed: run.interpreter.feed(),
             r_written: Vec::new(),
             search_level: run.search.as_ref().map_or(0, |search| search.level()),
             end: run.end,
@@ -380,7 +403,10 @@ impl State {
             self.found(run, stage);
             return Progress::Waits;
         }
-        if stage.to_nck.channels[stage.channel].read_in_disable() {
+        if run.waits_for_command_axis(stage) {
+            return Progress::Waits;
+        }
+        if stage.to_nck.channels[stage.channel].read_in_disable() || run.read_in_disabled {
             return Progress::Waits;
         }
         if let Some(alarm) = still_positioned(run) {
@@ -413,7 +439,7 @@ impl State {
         }
     }
 
-    fn begin_motion(&mut self, run: &mut Run, stage: &Stage<'_>) {
+    fn begin_motion(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &Sources<'_>) {
         let cycle = stage.parameters.cycle.seconds();
         let Some(block) = run.queue.front() else { return };
         let path = &stage.own.axes.path;
@@ -422,6 +448,10 @@ impl State {
                 .way
                 .map_or_else(|| on_path(path, |axis| self.axes[axis].setpoint.position), |block| block.way.start());
             run.path.place(position);
+            let moving: AxisSet = run.positionings.iter().map(|positioning| positioning.axis).collect();
+            run.commanded = run.commanded.and(moving);
+            let is_soft = block.modal.index(21) == 2;
+            run.path.set_jerk_window(if is_soft { stage.own.jerk_window } else { 1 });
         }
         run.dwell = block.dwell;
         let positions = block.positions.clone();
@@ -432,6 +462,8 @@ impl State {
             references.set(*axis, true);
         }
         (run.referencing, run.referencing_started) = (references, AxisSet::NONE);
+        run.limits = stage.own.accelerated(run.limits, &block.actions, stage.parameters);
+        run.path.set_limits(run.limits);
         // A block into which the path would have passed is there already.
         if let (Some(mut way), 0) = (block.way, run.on_path) {
             way.feed = run.effective_feed(way.feed, stage);
@@ -441,6 +473,7 @@ impl State {
         }
         let actions = block.actions.clone();
         for action in actions {
+            self.coordinate(&action, run, stage, sources.library);
             self.act(action, run, stage);
         }
         for positioning in positions {

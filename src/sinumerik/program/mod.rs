@@ -8,8 +8,10 @@
 //! |---|---|
 //! | `state.rs` | the state of a channel's program, and of the block that runs |
 //! | `selection.rs` | the programs in memory, and the selected ones |
+//! | `coordination.rs` | INIT, START, WAITE, marks of channels |
 //! | `control.rs` | program test, dry run, skip levels, delete passes, program level abort |
 //! | `start.rs` | NC start and its refusals, stop, RESET, end, change of the mode: the program states 35.0 to 35.4 |
+//! | `main_run.rs` | timers and markers of the main run |
 //! | `environment.rs` | what the language reads and writes: R parameters, system variables, machine data, programs |
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
 //! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
@@ -18,6 +20,7 @@
 //! | `ending.rs` | the end of a block: when its motion is over, programmed stops, single block |
 //! | `search.rs` | block search: without calculation, to the contour, to the end point, by program test |
 //! | `search_state.rs` | how far a search is, and what it has collected |
+//! | `synchronised.rs` | synchronised actions |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
 //! | `positioning.rs` | POS and POSA |
@@ -38,10 +41,12 @@
 pub(super) mod actions;
 pub(super) mod auxiliary;
 pub(super) mod control;
+pub(super) mod coordination;
 pub(super) mod ending;
 pub(super) mod environment;
 pub(super) mod execution;
 pub(super) mod geometry;
+pub(super) mod main_run;
 pub(super) mod outputs;
 pub(super) mod path;
 pub(super) mod positioning;
@@ -53,3 +58,4 @@ pub(super) mod search_state;
 pub(super) mod selection;
 pub(super) mod start;
 pub(super) mod state;
+pub(super) mod synchronised;

@@ -142,7 +142,7 @@ impl State {
         }
         let position = run.path.position();
         stage.own.axes.path.iter().enumerate().any(|(place, &axis)| {
-            let is_positioned = run.positionings.iter().any(|positioning| positioning.axis == axis);
+            let is_positioned = run.commanded.contains(axis) || run.positionings.iter().any(|one| one.axis == axis);
             let away = (self.axes[axis].setpoint.position.increments() as f64 - position[place]).abs();
             !is_positioned && away > ON_PATH && self.owners.is_program_axis(axis, stage.channel)
         })
@@ -162,7 +162,13 @@ impl State {
             feed if feed > 0.0 => Feed::Programmed(feed * Position::PER_USER_UNIT / 60.0),
             _ => programmed,
         };
-        let line = Way::line(from, run.path.position(), axes.counted);
+        let mut to = run.path.position();
+        for (place, axis) in axes.path.iter().enumerate() {
+            if run.commanded.contains(*axis) {
+                to[place] = from[place];
+            }
+        }
+        let line = Way::line(from, to, axes.counted);
         let block = PathBlock { number: 0, way: line, feed, exact_stop: false };
         way.append(block, stage.parameters.cycle.seconds()).ok()?;
         Some(way)
@@ -172,10 +178,7 @@ impl State {
     fn lead(&mut self, run: &Run, (before, now): (PerPathAxis, PerPathAxis), stage: &Stage<'_>) {
         let cycle = stage.parameters.cycle.seconds();
         for (place, &axis) in stage.own.axes.path.iter().enumerate() {
-            let other = run.positionings.iter().any(|positioning| positioning.axis == axis)
-                || run.referencing.contains(axis)
-                || !self.owners.is_program_axis(axis, stage.channel);
-            if other {
+            if run.leaves_alone(axis) || !self.owners.is_program_axis(axis, stage.channel) {
                 continue;
             }
             let setpoint = &self.axes[axis].setpoint;
@@ -192,10 +195,7 @@ impl State {
 
     fn show_travels(&mut self, run: &Run, direction: &PerPathAxis, moves: bool, held: Held, stage: &Stage<'_>) {
         for (place, &axis) in stage.own.axes.path.iter().enumerate() {
-            let other = run.positionings.iter().any(|positioning| positioning.axis == axis)
-                || run.referencing.contains(axis)
-                || !self.owners.is_program_axis(axis, stage.channel);
-            if other {
+            if run.leaves_alone(axis) || !self.owners.is_program_axis(axis, stage.channel) {
                 continue;
             }
             let sign = if direction[place] > 1e-12 {
@@ -259,6 +259,7 @@ impl State {
             let in_position = state.deviation().abs() <= state.active_set(&stage.parameters.axes[axis]).exact_stop_fine;
             if arrived && in_position {
                 run.positionings.remove(index);
+                run.commanded_arrived |= run.commanded.contains(axis);
                 self.show_travel(axis, Travel::None, Held::No, run, stage);
                 continue;
             }

@@ -110,7 +110,12 @@ impl Run {
 
     /// The state of preparation now.
     pub(in crate::sinumerik) fn behind_now(&self) -> Behind {
-        Behind { interpreter: self.interpreter.clone(), axis_feeds: self.axis_feeds.clone(), end: self.end }
+        Behind {
+            interpreter: self.interpreter.clone(),
+            axis_feeds: self.axis_feeds.clone(),
+            path_override: self.path_override,
+            end: self.end,
+        }
     }
 
     fn fail(&mut self, alarm: &ProgramAlarm) {
@@ -168,6 +173,7 @@ impl Run {
             Ok(executable) => {
                 self.end = end;
                 (read.behind.end, read.behind.axis_feeds) = (end, self.axis_feeds.clone());
+                read.behind.path_override = self.path_override;
                 self.queue.push_back(Executable { block: Some(read), ..executable });
             }
             Err(alarm) => {
@@ -242,16 +248,16 @@ impl Preparing<'_> {
         let exact_stop = geometry::is_exact_stop(block) || !done.outputs[2].is_empty();
         if let Some(way) = way.filter(|way| way.length() >= 0.5) {
             run.numbers += 1;
-            let feed = self.feed(block);
+            let feed = self.feed(block, run.path_override);
             done.way = Some(PathBlock { number: run.numbers, way, feed, exact_stop });
         }
         Ok(done)
     }
 
-    fn feed(&self, block: &Block) -> Feed {
+    fn feed(&self, block: &Block, path_override: f64) -> Feed {
         let feed = block.feed.map(|feed| geometry::feed(feed, block, self.parameters.is_inch));
         match feed {
-            Some(feed) if !geometry::is_rapid(block) => Feed::Programmed(feed),
+            Some(feed) if !geometry::is_rapid(block) => Feed::Programmed(feed * path_override),
             Some(_) | None => Feed::Rapid,
         }
     }
@@ -352,6 +358,15 @@ impl Preparing<'_> {
                 Action::Message(_) | Action::CycleAlarm { .. } | Action::NewConfiguration | Action::EndOverlays => {
                     done.actions.push(action.clone());
                 }
+                Action::SetMarks(_) | Action::ClearMarks(_) => done.actions.push(action.clone()),
+                Action::WaitMark { channels, .. } | Action::Start(channels) | Action::WaitEnd(channels) => {
+                    self.check_channels(block, channels)?;
+                    done.actions.push(action.clone());
+                }
+                Action::Initialise { channel, .. } => {
+                    self.check_channels(block, std::slice::from_ref(channel))?;
+                    done.actions.push(action.clone());
+                }
                 Action::Preset(axes) => {
                     for (name, _) in axes {
                         self.path_axis(block, *name)?;
@@ -384,18 +399,12 @@ impl Preparing<'_> {
                 Action::DwellRevolutions { .. } | Action::SpindlePosition { .. } | Action::WaitForSpindle(_) => {
                     return Err(alarm(block, NO_SPINDLE, Parameter::Text(short_text("1"))));
                 }
-                Action::Acceleration(..)
-                | Action::Override(_)
-                | Action::SetMarks(_)
-                | Action::ClearMarks(_)
-                | Action::WaitMark { .. }
-                | Action::Initialise { .. }
-                | Action::Start(_)
-                | Action::WaitEnd(_)
-                | Action::Synchronised(_)
-                | Action::Cancel(_) => {
-                    return Err(alarm(block, NOT_ACTIVE, Parameter::Text(short_text(block.origin.text.trim()))));
+                Action::Acceleration(name, _) => {
+                    self.path_axis(block, *name)?;
+                    done.actions.push(action.clone());
                 }
+                Action::Override(percent) => run.path_override = percent / 100.0,
+                Action::Synchronised(_) | Action::Cancel(_) => done.actions.push(action.clone()),
             }
         }
         // After the feeds of the same block, in whatever order they are written.
@@ -423,6 +432,17 @@ impl Preparing<'_> {
             done.positions.push(Positioning { axis, target, velocity, waits: *waits });
         }
         Ok(())
+    }
+
+    /// 14020: a channel that does not exist.
+    fn check_channels(&self, block: &Block, channels: &[u16]) -> Result<(), BlockAlarm> {
+        let exists = |number: &u16| {
+            self.parameters.existing_channels().any(|(channel, _)| u16::from(channel.number()) == *number)
+        };
+        if channels.iter().all(exists) {
+            return Ok(());
+        }
+        Err(alarm(block, alarms::WRONG_PARAMETER, Parameter::None))
     }
 
     /// G25, G26: SD43430 and SD43420, in the basic system.

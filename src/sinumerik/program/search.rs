@@ -112,7 +112,7 @@ impl State {
             let number = if is_number { alarms::SEARCH_BLOCK_NUMBER } else { alarms::SEARCH_LABEL };
             return Err((number, target.to_owned()));
         };
-        let mut interpreter = Interpreter::new(&selected, own.modal, own.initial_feed(), false);
+        let mut interpreter = Interpreter::new(&selected, own.modal, self.initial_feed(channel, own), false);
         if kind == SearchKind::WithoutCalculation && !interpreter.go_to(&found, &wanted) {
             return Err((alarms::SEARCH_TARGET_MISSING, target.to_owned()));
         }
@@ -339,7 +339,7 @@ impl State {
         let to = if packages.len() > 1 { Progress::Acting } else { Progress::LastAction };
         let event = self.search_goes_on(run, stage, to, Rule::SearchActions, Input::None);
         for package in packages {
-            self.programs[stage.channel].output.add(&package, event);
+            self.programs[stage.channel].output.add(&package, event, false);
         }
     }
 

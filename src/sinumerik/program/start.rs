@@ -72,7 +72,10 @@ impl State {
             ProgramState::Aborted => {
                 let selected = if mode == Mode::Mda { program.mda.clone() } else { program.selected.clone() };
                 match selected.filter(|path| library.program(path).is_some()) {
-                    Some(path) => self.begin_program((channel, mode), &path, own, (parameters, to_nck), pressed),
+                    Some(path) => {
+                        let event = self.note_start(channel, mode, parameters, pressed);
+                        self.begin_program((channel, mode), &path, own, (parameters, to_nck), event);
+                    }
                     None if mode == Mode::Mda => {}
                     None => {
                         let event = self.log.note_one(place, Rule::NoProgramSelected, pressed, EventId::NONE);
@@ -95,31 +98,42 @@ impl State {
         self.alarms.raise(number, place, shown, event);
     }
 
-    fn begin_program(
+    /// NC start begins a program: the event.
+    fn note_start(&mut self, channel: ChannelNumber, mode: Mode, parameters: &Parameters, pressed: Input) -> EventId {
+        let automatic = mode_group_from_nck::active_mode_automatic;
+        let mda = mode_group_from_nck::active_mode_mdi;
+        let group = parameters.mode_group(channel);
+        let active = mode_group_signal(group, if mode == Mode::Mda { mda } else { automatic }, true);
+        self.log.note(
+            Place::Channel(channel),
+            Rule::ProgramStarted,
+            [pressed, active, Input::None],
+            self.mode_groups[group].mode_cause,
+        )
+    }
+
+    /// Begins a program, after the event that starts it.
+    pub(super) fn begin_program(
         &mut self,
         (channel, mode): (ChannelNumber, Mode),
         path: &str,
         own: &ProgramParameters,
         (parameters, to_nck): (&Parameters, &ToNck),
-        pressed: Input,
+        event: EventId,
     ) {
-        let automatic = mode_group_from_nck::active_mode_automatic;
-        let mda = mode_group_from_nck::active_mode_mdi;
-        let group = parameters.mode_group(channel);
-        let active = mode_group_signal(group, if mode == Mode::Mda { mda } else { automatic }, true);
-        let event = self.log.note(
-            Place::Channel(channel),
-            Rule::ProgramStarted,
-            [pressed, active, Input::None],
-            self.mode_groups[group].mode_cause,
-        );
-        let interpreter = Interpreter::new(path, own.modal, own.initial_feed(), mode == Mode::Mda);
+        let interpreter = Interpreter::new(path, own.modal, self.initial_feed(channel, own), mode == Mode::Mda);
         let run = self.new_run((channel, mode == Mode::Mda), interpreter, own, (parameters, to_nck), event);
         let program = &mut self.programs[channel];
         program.run = Some(Box::new(run));
         (program.state, program.cause) = (ProgramState::Running, event);
         (program.ended, program.programmed_stop, program.associated_stop) = (false, false, false);
         (program.modal, program.modal_cause) = (own.modal, event);
+    }
+
+    /// The feed with which a program begins: with MD22410 that of the last one, else SD42110.
+    pub(super) fn initial_feed(&self, channel: ChannelNumber, own: &ProgramParameters) -> Option<f64> {
+        let stays = self.programs[channel].last_feed.filter(|_| own.feed_stays);
+        stays.or_else(|| own.initial_feed())
     }
 
     /// A program before its first block, or before that of the interpreter.
@@ -133,7 +147,8 @@ impl State {
     ) -> Run {
         let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
         let limits = limits(own, parameters);
-        let behind = Behind { interpreter: interpreter.clone(), axis_feeds: Vec::new(), end: position };
+        let behind =
+            Behind { interpreter: interpreter.clone(), axis_feeds: Vec::new(), path_override: 1.0, end: position };
         Run {
             interpreter,
             is_mda,
@@ -150,6 +165,7 @@ impl State {
             positionings: Vec::new(),
             dwell: 0,
             block_cause: event,
+            block_cycle: self.log.cycle,
             stopping: None,
             resetting: None,
             delete_was: false,
@@ -170,6 +186,12 @@ impl State {
             dry_run: to_nck.channels[channel].activate_dry_run_feedrate(),
             change: None,
             level_signals_were: [false; 2],
+            commanded: AxisSet::NONE,
+            commanded_arrived: false,
+            read_in_disabled: false,
+            path_override: 1.0,
+            waits: None,
+            starts: Vec::new(),
             search: None,
             approaches: false,
         }
@@ -196,6 +218,7 @@ impl State {
         }
         // What is in DB21 already stays for its cycle.
         program.output.drop_waiting();
+        program.main_run.clear_markers();
         program.message = None;
     }
 
@@ -213,6 +236,7 @@ impl State {
         (program.modal, program.modal_cause) = (own.modal, event);
         program.message = None;
         program.search_cause = event;
+        program.actions.retain(|one| one.action.is_static);
     }
 
     /// What outlasts power off: R parameters, the selected programs, settable offsets.

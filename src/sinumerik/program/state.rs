@@ -6,13 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::SearchKind;
 use crate::motion::path::{PATH_AXES, Path, PathBlock, PathLimits, PerPathAxis};
-use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, ProgramAlarm};
+use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, ProgramAlarm, SynchronisedAction};
 use crate::sinumerik::exchange::state::Claim;
 use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
 use crate::sinumerik::program::auxiliary::{Output, Package};
+use crate::sinumerik::program::main_run::MainRun;
 use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::search_state::Search;
-use crate::units::{AxisNumber, AxisSet, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, BlockName, EventId, Parameter};
 
 /// 35.0 to 35.4.
@@ -60,6 +61,14 @@ pub(in crate::sinumerik) struct ChannelProgram {
     pub associated_stop: bool,
     /// 33.7, and the axes that it concerns.
     pub test: ProgramTest,
+    /// Synchronised actions, in the order in which they began.
+    pub actions: Vec<ActiveAction>,
+    /// $AC_TIMER, $AC_MARKER.
+    pub main_run: MainRun,
+    /// The marks of WAITM and SETM, a bit each.
+    pub marks: u128,
+    /// Marks that are taken away after the next judgement of waits.
+    pub passed_marks: u128,
     /// A search that the operator wants: its block, its type, its event.
     pub search_request: Option<(String, SearchKind, EventId)>,
     /// The event behind the progress of a search: 33.4, 318.1, 32.3, 32.4, 32.6.
@@ -72,6 +81,8 @@ pub(in crate::sinumerik) struct ChannelProgram {
     /// Settable offsets: index in G group 8, axis, value.
     pub offsets: Vec<(u8, AxisNumber, Position)>,
     pub message: Option<String>,
+    /// The path feed of the last block that had one, which stays with MD22410.
+    pub last_feed: Option<f64>,
     /// The program that runs or is stopped.
     pub run: Option<Box<Run>>,
 }
@@ -87,6 +98,10 @@ impl ChannelProgram {
             programmed_stop: false,
             associated_stop: false,
             test: ProgramTest::default(),
+            actions: Vec::new(),
+            main_run: MainRun::default(),
+            marks: 0,
+            passed_marks: 0,
             search_request: None,
             search_cause: EventId::NONE,
             modal: parameters.map_or_else(Modal::default, |parameters| parameters.modal),
@@ -94,8 +109,20 @@ impl ChannelProgram {
             output: Output::default(),
             offsets: Vec::new(),
             message: None,
+            last_feed: None,
             run: None,
         }
+    }
+
+    /// FFWON: G group 24.
+    pub(in crate::sinumerik) fn has_feed_forward(&self) -> bool {
+        self.modal.index(24) == 2
+    }
+
+    /// Sets or clears a mark of the channel.
+    pub(in crate::sinumerik) fn set_mark(&mut self, mark: u16, is_set: bool) {
+        let bit = 1_u128 << (mark % 128);
+        self.marks = if is_set { self.marks | bit } else { self.marks & !bit };
     }
 
     /// The block search.
@@ -134,6 +161,7 @@ pub(in crate::sinumerik) struct ProgramTest {
 pub(in crate::sinumerik) struct Behind {
     pub interpreter: Interpreter,
     pub axis_feeds: Vec<(AxisNumber, f64)>,
+    pub path_override: f64,
     /// Where the axes of the path are then.
     pub end: PerPathAxis,
 }
@@ -240,6 +268,18 @@ impl Executable {
         self.outputs.iter().any(|package| !package.is_empty())
     }
 
+    /// Whether it is one action and nothing else.
+    pub(in crate::sinumerik) fn is_only_action(&self) -> bool {
+        self.way.is_none()
+            && self.actions.len() == 1
+            && !self.has_outputs()
+            && self.dwell == 0
+            && self.positions.is_empty()
+            && self.references.is_empty()
+            && self.stop == ProgrammedStop::None
+            && self.end.is_none()
+    }
+
     /// Whether it only moves the path, so that the path can pass into it without a stop.
     pub(in crate::sinumerik) fn is_plain(&self) -> bool {
         self.way.is_some()
@@ -275,6 +315,29 @@ pub(in crate::sinumerik) enum ProgrammedStop {
     /// MD22256, if DB21.DBX30.5 = 1.
     AssociatedOptional,
 }
+
+/// A synchronised action that is evaluated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ActiveAction {
+    pub action: SynchronisedAction,
+    /// Its condition held in the last cycle; with FROM, in an earlier one.
+    pub held: bool,
+    pub is_over: bool,
+    /// Without an ID: it ends when this many blocks were executed.
+    pub until: Option<u64>,
+}
+
+/// What a program waits for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum WaitFor {
+    /// WAITM, WAITMC: these channels have the mark.
+    Mark { mark: u16, channels: Vec<ChannelNumber> },
+    /// WAITE: these channels have ended their programs.
+    End(Vec<ChannelNumber>),
+}
+
+/// A program that a program starts: its channel, and the event of the block.
+pub(in crate::sinumerik) type StartRequest = (ChannelNumber, ChannelNumber, EventId);
 
 /// What the block that runs does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -319,6 +382,8 @@ pub(in crate::sinumerik) struct Run {
     pub dwell: u64,
     /// The event with which the block that runs began.
     pub block_cause: EventId,
+    /// The cycle in which it began.
+    pub block_cycle: u64,
     /// The event that stops the program; it is stopped when its axes are at rest.
     pub stopping: Option<EventId>,
     /// The event of a RESET that ends the program when its axes are at rest.
@@ -358,6 +423,18 @@ pub(in crate::sinumerik) struct Run {
     pub change: Option<Change>,
     /// DB21.DBX6.3 and 6.4 in the last cycle.
     pub level_signals_were: [bool; 2],
+    /// Axes that synchronised actions have moved: the path leaves them alone until it begins again.
+    pub commanded: AxisSet,
+    /// One of them has arrived: blocks behind the one that runs are prepared again.
+    pub commanded_arrived: bool,
+    /// RDISABLE of a synchronised action in this cycle.
+    pub read_in_disabled: bool,
+    /// OVR as a factor.
+    pub path_override: f64,
+    /// What it waits for in other channels.
+    pub waits: Option<WaitFor>,
+    /// The programs that it starts in other channels, at the end of the stage.
+    pub starts: Vec<StartRequest>,
     /// A block search, until its approach begins.
     pub search: Option<Box<Search>>,
     /// 32.4: the return to the path is the approach after a search.
@@ -390,6 +467,12 @@ impl Run {
             self.r_log.pop_front();
         }
         Some(done)
+    }
+
+    /// Whether the path does not move this axis: it is positioned, referenced, or moved by a synchronised action.
+    pub(in crate::sinumerik) fn leaves_alone(&self, axis: AxisNumber) -> bool {
+        let is_positioned = self.positionings.iter().any(|positioning| positioning.axis == axis);
+        is_positioned || self.referencing.contains(axis) || self.commanded.contains(axis)
     }
 
     /// Whether everything that was prepared has been executed.

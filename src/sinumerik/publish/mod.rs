@@ -71,7 +71,7 @@ impl Nck {
                 }
                 state.show_movement(number, axis, parameters, &mut rows);
             }
-            variables.axes[number] = state.values(number, axis);
+            variables.axes[number] = state.values(number, axis, parameters);
         }
         for index in 0..state.groupings.len() {
             let members: AxisSet = state.groupings[index].coupling.members().collect();
@@ -143,7 +143,7 @@ impl State {
         }
     }
 
-    fn values(&self, number: AxisNumber, parameters: &AxisParameters) -> AxisValues {
+    fn values(&self, number: AxisNumber, parameters: &AxisParameters, all: &Parameters) -> AxisValues {
         let axis = &self.axes[number];
         let per_user_unit = if parameters.rotary { 360.0 } else { 1.0 };
         let drf = axis.overlay.position();
@@ -155,10 +155,11 @@ impl State {
             }
         });
         let setpoint = axis.setpoint.position;
-        let distance_to_go = match (axis.jogging.movement, axis.motion) {
+        let by_program = self.distance_to_go_of_program(number, all);
+        let distance_to_go = by_program.unwrap_or_else(|| match (axis.jogging.movement, axis.motion) {
             (Movement::None, Motion::GoTo { target, .. }) => target - setpoint,
             (movement, _) => movement.distance_to_go(setpoint),
-        };
+        });
         AxisValues {
             // During axis disable the displayed value follows the setpoint (SIG-03).
             position: drf + if axis.signals.disabled_at().is_some() { axis.setpoint.position } else { axis.actual },

@@ -1,7 +1,10 @@
 //! The values of the program of a channel: the block that runs, and the name of its program.
 
 use crate::nc_program::Origin;
+use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::program::state::{ChannelProgram, Phase};
+use crate::sinumerik::state::State;
+use crate::units::{AxisNumber, Position};
 use crate::variables::{ChannelValues, program_name};
 
 impl ChannelProgram {
@@ -20,6 +23,24 @@ impl ChannelProgram {
             values.block = block_number(origin);
             values.program = program_name(&origin.program);
         }
+    }
+}
+
+impl State {
+    /// What an axis has left of the block that runs: the axes of the path, and those of POS and POSA; a synchronous axis as its leading axis.
+    pub(super) fn distance_to_go_of_program(&self, number: AxisNumber, parameters: &Parameters) -> Option<Position> {
+        let channel = parameters.axes[number].channel;
+        let run = self.programs[channel].run.as_deref()?;
+        let own = parameters.programs[channel].as_deref()?;
+        let leader = self.units.iter().find(|unit| unit.set.contains(number))?.leader();
+        let setpoint = self.axes[leader].setpoint.position;
+        if let Some(positioning) = run.positionings.iter().find(|one| one.axis == leader) {
+            return Some(positioning.target - setpoint);
+        }
+        let (block, _) = run.path.current()?;
+        #[expect(clippy::cast_possible_truncation, reason = "a position of an axis fits")]
+        let end = Position::new(block.way.end()[own.axes.place(leader)?].round() as i64);
+        Some(end - setpoint)
     }
 }
 

@@ -310,3 +310,40 @@ fn nc_start_without_reference_points_is_refused_with_md20700_of_1_and_2() {
         assert_eq!(session.value("R1").unwrap(), 1.0 - refused, "{lock}");
     }
 }
+
+/// 16913: between AUTOMATIC and MDA only while no program runs or is stopped; once for each request.
+#[test]
+fn automatic_and_mda_exclude_each_other_while_a_program_is_stopped() {
+    let mut session = automatic("X10 F3000\nM0\nM30");
+    start(&mut session);
+    session.wait("CHAN1.m0_m1_active", "5s").unwrap();
+    session.set("mode_group_1.mode_automatic", 0).unwrap();
+    session.set("mode_group_1.mode_mdi", 1).unwrap();
+    session.run("10ms").unwrap();
+    session.expect("alarm(16913) && mode_group_1.active_mode_automatic && CHAN1.program_state_stopped").unwrap();
+    session.cancel().unwrap();
+    session.run("10ms").unwrap();
+    session.expect("!alarm(16913) && mode_group_1.active_mode_automatic").unwrap();
+    session.pulse_for("CHAN1.channel_reset", "5cycles").unwrap();
+    session.run("10ms").unwrap();
+    session.expect("mode_group_1.active_mode_mdi").unwrap();
+}
+
+/// MD22410: the path feed stays over the end of a program; without it, 10860.
+#[test]
+fn the_path_feed_stays_over_the_end_of_a_program_with_md22410() {
+    for (stays, alarm) in [(0.0, 1.0), (1.0, 0.0)] {
+        let mut session = automatic("X1 F3000\nM30");
+        session.machine_data("22410[CHAN1]", stays).unwrap();
+        session.power_on().unwrap();
+        session.run("200ms").unwrap();
+        super::prepare(&mut session, "X1 F3000\nM30");
+        start(&mut session);
+        session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+        session.nc("X2\nM30", 1).unwrap();
+        session.run("10ms").unwrap();
+        start(&mut session);
+        session.wait("CHAN1.m2_m30_active || alarm(10860)", "5s").unwrap();
+        assert_eq!(session.value("alarm(10860)").unwrap(), alarm);
+    }
+}
