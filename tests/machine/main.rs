@@ -9,6 +9,7 @@ mod cli;
 mod determinism;
 mod documents;
 mod dynamics;
+mod fault_table;
 mod first_test;
 mod foreign_readers;
 mod machine_data_command;
