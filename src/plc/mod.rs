@@ -40,8 +40,9 @@ pub use closure::{ClosureProgram, program, program_for, program_with_fault};
 pub use io::PlcIo;
 pub use process::PlcProcess;
 pub use programs::{
-    LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, PositionAxis, ToolChange, enable_all,
-    gantry_start, limit_edge_marker, machine_control_panel, position_axis, shared_reference_cam, tool_change,
+    GearChange, LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, PositionAxis, ToolChange,
+    enable_all, gantry_start, gear_change, limit_edge_marker, machine_control_panel, position_axis,
+    shared_reference_cam, tool_change,
 };
 pub use registry::Programs;
 pub use spin_ctrl::{SpinCtrl, SpinCtrlInputs, SpinCtrlOutputs};

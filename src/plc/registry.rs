@@ -9,7 +9,7 @@ use crate::units::Time;
 
 use super::process::PlcProcess;
 use super::{
-    PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_control_panel, position_axis,
+    PlcProgram, enable_all, gantry_start, gear_change, limit_edge_marker, machine_control_panel, position_axis,
     shared_reference_cam, tool_change,
 };
 
@@ -32,13 +32,14 @@ impl Default for Programs {
 }
 
 impl Programs {
-    /// The built-in programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `position_axis`, `shared_reference_cam`,
-    /// `tool_change`.
+    /// The built-in programs: `enable_all`, `gantry_start`, `gear_change`, `limit_edge_marker`, `machine_control_panel`, `position_axis`,
+    /// `shared_reference_cam`, `tool_change`.
     #[must_use]
     pub fn ready() -> Self {
         Self { named: BTreeMap::new(), processes: None }
             .with("enable_all", |_| Ok(enable_all().boxed()))
             .with("gantry_start", |_| Ok(gantry_start().boxed()))
+            .with("gear_change", |_| Ok(gear_change().boxed()))
             .with("limit_edge_marker", |_| Ok(limit_edge_marker().boxed()))
             .with("machine_control_panel", |_| Ok(machine_control_panel().boxed()))
             .with("position_axis", |_| Ok(position_axis().boxed()))

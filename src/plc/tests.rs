@@ -101,13 +101,14 @@ fn programs_are_found_by_name_and_a_misspelt_name_gets_a_suggestion() {
     assert!(programs.names().eq([
         "enable_all",
         "gantry_start",
+        "gear_change",
         "limit_edge_marker",
         "machine_control_panel",
         "mine",
         "shared_reference_cam",
         "tool_change"
     ]));
-    for name in ["enable_all", "gantry_start", "shared_reference_cam", "tool_change"] {
+    for name in ["enable_all", "gantry_start", "gear_change", "shared_reference_cam", "tool_change"] {
         assert_eq!(programs.program(name, &names).unwrap().name(), name);
     }
     assert_eq!(programs.program("mine", &names).unwrap().name(), "counting");

@@ -51,7 +51,8 @@ impl Nck {
             resting.awake = AxisSet::ALL;
         }
         let programs = state.program_axes(&self.parameters);
-        resting.deciding = resting.deciding.with(changes.axes).with(programs).and(self.parameters.existing);
+        let active = programs.with(self.parameters.spindles);
+        resting.deciding = resting.deciding.with(changes.axes).with(active).and(self.parameters.existing);
         resting.awake = resting.awake.with(resting.deciding).and(self.parameters.existing);
         // Until position control changes it.
         (resting.still, resting.heard) = (AxisSet::ALL, AxisSet::NONE);

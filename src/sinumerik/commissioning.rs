@@ -13,6 +13,7 @@ use crate::sinumerik::opening::findings;
 use crate::sinumerik::parameters::axis::{AxisPresence, Kind};
 use crate::sinumerik::parameters::groupings::GROUPINGS;
 use crate::sinumerik::parameters::mechanics::Mechanics;
+use crate::sinumerik::parameters::spindle::is_spindle;
 use crate::sinumerik::strobe::Strobe;
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, Position};
@@ -86,6 +87,10 @@ impl Commissioning {
 
 /// MD34300, or its default where it is 0: the plant has zero marks also then.
 fn spacing(md: &Axis) -> [Position; 2] {
+    if is_spindle(md) {
+        // One zero mark in each revolution.
+        return [Position::from_user(360.0); 2];
+    }
     let default = Axis::default().enc_refp_marker_dist;
     [0, 1]
         .map(|encoder| Position::from_user(md.enc_refp_marker_dist[encoder]))

@@ -37,6 +37,7 @@ mod resting;
 mod rules;
 mod shown;
 mod single_axis;
+mod spindle;
 mod state;
 mod strobe;
 mod texts;

@@ -376,6 +376,7 @@ impl Nck {
                 state.take_axis_signals(&unit, to_nck);
                 match unit.grouping {
                     Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
+                    None if state.spindles[unit.leader()].is_some() => state.run_spindle(&unit, parameters, to_nck),
                     None => state.run_single(&unit, parameters, to_nck),
                 }
                 state.stop_by_ramp_function_generator(&unit);
@@ -419,10 +420,11 @@ impl Nck {
             Standing { standing: summary.standing, in_motion: summary.in_motion, referenced: summary.referenced };
         for number in awake.iter() {
             let axis = &self.state.axes[number];
-            summary.standing.set(number, axis.is_stationary(&self.parameters.axes[number]));
+            let turns = axis.speed_controlled; // A spindle in speed control does not count (S-02).
+            summary.standing.set(number, turns || axis.is_stationary(&self.parameters.axes[number]));
             // An approach and a synchronising motion that wait at standstill also count as motion (O-31).
             let busy = axis.approach.is_running() || synchronising.contains(number);
-            summary.in_motion.set(number, axis.is_in_motion() || busy);
+            summary.in_motion.set(number, !turns && (axis.is_in_motion() || busy));
         }
         for number in awake.and(decided).iter() {
             let axis = &self.state.axes[number];

@@ -10,6 +10,7 @@ use crate::sinumerik::alarms::{self, Alarm};
 use crate::sinumerik::machine_data::{Archive, Axis, check};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::groupings::Fault;
+use crate::sinumerik::parameters::spindle::is_spindle;
 use crate::units::{AxisNumber, ModeGroupNumber};
 use crate::variables::{Parameter, Place};
 
@@ -35,6 +36,7 @@ const ACTS_OTHERWISE: &[(u32, &str, &str)] = &[
         "select the other measuring system (position_measuring_system_1, position_measuring_system_2), and reference it as well",
     ),
     (34104, "an axis in follow-up is not referenced", "give the axis its controller_enable before the approach"),
+    (35020, "a spindle begins in speed control", "expect control_mode after power on, NC start and RESET"),
     (36052, "clamping has no special functions", "expect clamping_in_progress to act as with MD36052 = 0"),
     (
         36730,
@@ -267,10 +269,9 @@ fn functions(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut 
     let mut add = |datum: u32, what: &str, cure: &str| {
         findings.push(archive.about(datum, Owner::Axis(number), 0, Finding::new(Class::ActsOtherwise, what, cure)));
     };
-    if axis.spind_assign_to_machax != 0 {
-        let what = "spindles are not modelled: the axis moves in JOG like a rotary axis, is never referenced, and its spindle signals \
-            stay 0";
-        add(35000, what, "test the signals of the spindle at the machine");
+    if axis.spind_assign_to_machax != 0 && !is_spindle(axis) {
+        let what = "a spindle is a modulo rotary axis; this one stays an axis";
+        add(35000, what, "set MD30300 and MD30310 to 1");
     }
     if axis.is_rot_ax && axis.rot_is_modulo {
         let what = "modulo only disables the software limits in the model; positions are not reset";

@@ -175,6 +175,36 @@ rules! {
     ControlNotGivenBack "28.7" "the PLC keeps the axis while it has an alarm";
     Positioning "76.5" "the axis is positioned";
     PositioningEnds "76.5" "the axis is no longer positioned";
+    // Spindles.
+    SpindleFunction "spindle" "the function of a program acts after its acknowledgement";
+    SpindleStop "spindle" "spindle stop, or NC stop axes plus spindles";
+    SpindleReleased "spindle" "nothing holds the spindle";
+    SpindleInverted "spindle" "the PLC inverts M3 and M4";
+    SpindlePositioned "spindle" "a program positions the spindle";
+    GearStageChanged "spindle" "the gear stage is changed";
+    GearStageDiffers "22010" "the actual gear stage is not the wanted one";
+    GearChangeStops "spindle" "the spindle stops for the change of its gear stage";
+    GearChangeAwaited "spindle" "motion waits for the change of the gear stage";
+    GearChangeTooLong "16938" "RESET has waited for a gear change as long as MD10192 permits";
+    Oscillation "spindle" "oscillation";
+    OscillationTurns "spindle" "direction of oscillation";
+    SpindleClosesLoop "spindle" "the position is known, and the speed is low enough: position control";
+    SpindleWithoutEncoder "22050" "a spindle without an active encoder cannot be positioned";
+    SpindleMarkMissing "22051" "no zero mark in two revolutions";
+    SpindleInPosition "spindle" "the spindle is in position";
+    SpindleIsAxis "spindle" "the spindle stands and is an axis";
+    SpindleReset "spindle" "spindle reset";
+    SpeedDeleted "spindle" "the S value was deleted";
+    SpeedLimited "spindle" "the programmed speed is above the limit";
+    SpeedRaised "spindle" "the programmed speed is below the limit";
+    SpeedWithinLimits "spindle" "the programmed speed is within the limits";
+    SpeedExceeded "spindle" "the actual speed against the largest speed and its tolerance";
+    SpeedReached "spindle" "the actual speed against the commanded one, with its tolerance";
+    SpindleDirection "spindle" "the actual direction";
+    SpindleSynchronised "spindle" "the spindle has passed its zero mark";
+    SpindleAcknowledgementAwaited "spindle" "the path waits for the acknowledgement of the functions of its spindles";
+    SpindleSpeedAwaited "spindle" "the path waits for the speed of the spindle";
+    ChuckSpeedExceeded "22100" "the actual speed is more than 10 % above MD35100";
     // Jogging.
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";

@@ -20,6 +20,7 @@ use crate::sinumerik::program::state::{ChannelProgram, Led};
 use crate::sinumerik::referencing::state::{Buffered, EncoderDatum};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::SingleAxes;
+use crate::sinumerik::spindle::state::Spindle;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place, RParameters};
 
@@ -91,6 +92,8 @@ pub(super) struct State {
     pub emergency_stop: EmergencyStop,
     pub channels: PerChannel<Channel>,
     pub axes: PerAxis<Axis>,
+    /// The axes that are spindles.
+    pub spindles: PerAxis<Option<Box<Spindle>>>,
     /// Filters and delays of setpoints, if machine data require them.
     pub shaping: PerAxis<Option<Box<Shaping>>>,
     pub groupings: ArrayVec<Grouping, GROUPINGS>,
@@ -138,6 +141,7 @@ impl State {
             emergency_stop: EmergencyStop::default(),
             channels: PerChannel::default(),
             axes: PerAxis::default(),
+            spindles: PerAxis::from_fn(|number| parameters.spindles.contains(number).then(Box::default)),
             shaping: PerAxis::default(),
             groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),
             units: ArrayVec::new(),
@@ -163,6 +167,9 @@ impl State {
             compensating: AxisSet::NONE,
             overwritten: true,
         };
+        for number in parameters.spindles.iter() {
+            state.axes[number].speed_controlled = true;
+        }
         for grouping in &mut state.groupings {
             grouping.remember_trips(parameters);
         }

@@ -118,6 +118,32 @@ signals! {
     bool, suppress_program_test, set_suppress_program_test: 14, 0;
     /// Activate program test: 1 = active for this axis.
     bool, activate_program_test, set_activate_program_test: 14, 1;
+    /// Actual gear stage of the spindle, binary: 1 to 5.
+    u8, actual_gear_stage, set_actual_gear_stage: 16, 2 to 0;
+    /// Gear stage changed: 1 = the stage in the three bits before is engaged.
+    bool, gear_stage_changed, set_gear_stage_changed: 16, 3;
+    /// Resynchronise spindle 1: 1 = the zero mark is searched again with measuring system 1.
+    bool, resynchronise_spindle_1, set_resynchronise_spindle_1: 16, 4;
+    /// Resynchronise spindle 2: 1 = the zero mark is searched again with measuring system 2.
+    bool, resynchronise_spindle_2, set_resynchronise_spindle_2: 16, 5;
+    /// No speed monitoring during a gear change: 1 = none.
+    bool, no_speed_monitoring_during_gear_change, set_no_speed_monitoring_during_gear_change: 16, 6;
+    /// Delete S value: 1 = the programmed speed of the spindle is 0; effective at a rising edge.
+    bool, delete_s_value, set_delete_s_value: 16, 7;
+    /// Feed override for the spindle: 1 = the feed override acts instead of the spindle override.
+    bool, feed_override_for_spindle, set_feed_override_for_spindle: 17, 0;
+    /// Invert M3 and M4: 1 = M3 turns counterclockwise, M4 clockwise.
+    bool, invert_m3_m4, set_invert_m3_m4: 17, 6;
+    /// Oscillation by the PLC: 1 = the direction signals of oscillation are those of the PLC.
+    bool, oscillation_by_plc, set_oscillation_by_plc: 18, 4;
+    /// Oscillation enable: 1 = the spindle oscillates during a gear change.
+    bool, oscillation_enable, set_oscillation_enable: 18, 5;
+    /// Direction of oscillation clockwise: 1 = clockwise.
+    bool, oscillation_clockwise, set_oscillation_clockwise: 18, 6;
+    /// Direction of oscillation counterclockwise: 1 = counterclockwise.
+    bool, oscillation_counterclockwise, set_oscillation_counterclockwise: 18, 7;
+    /// Spindle override: position of the switch in Gray code (MD12060 = 1) or per cent in binary.
+    u8, spindle_override, set_spindle_override: 19, 7 to 0;
     /// Ramp-function generator fast stop: 1 = speed setpoint 0 along the ramp of the drive.
     bool, ramp_function_generator_fast_stop, set_ramp_function_generator_fast_stop: 20, 1;
     /// Open holding brake: 1 = the brake of the motor opens, also without power; the axis may fall.

@@ -301,6 +301,19 @@ alarms! {
     /// The drive lost its power during motion.
     FOLLOW_UP_IN_MOTION 21615 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 taken from motion into follow-up";
+    /// The PLC reports another gear stage than the wanted one.
+    GEAR_STAGE_DIFFERS 22010 [DISPLAY] CancelKey
+        "channel %1 spindle %2 actual gear stage is not the wanted one";
+    /// SPOS of a spindle without an active encoder.
+    SPINDLE_WITHOUT_POSITION_CONTROL 22050 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 spindle %2 no change from speed control to position control";
+    /// No zero mark in the search of a spindle.
+    SPINDLE_MARK_MISSING 22051 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 spindle %2 reference mark not found";
+    /// The chuck speed (MD35100 and 10 %) is exceeded.
+    CHUCK_SPEED 22100
+        [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 chuck speed exceeded";
     /// No signal from the active encoder, or its cable is disconnected.
     ACTIVE_ENCODER_FAULT 25000
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn

@@ -99,6 +99,7 @@ alarms! {
     16935 [DISPLAY] CancelKey "channel %1 action %2 not possible during a block search with program test";
     16936 [DISPLAY] CancelKey "channel %1 action %2 not possible while the dry run is active";
     16937 [DISPLAY] CancelKey "channel %1 action %2 not possible while a program test is active";
+    16938 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 action aborted because a gear change lasts too long";
     16942 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 START in a block search with program test";
     16952 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 START not possible while MDA is active";
     17020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 first index is not valid";
@@ -134,6 +135,8 @@ pub(in crate::sinumerik) const PATH_BEHIND_LIMIT: AlarmNumber = AlarmNumber(1072
 pub(in crate::sinumerik) const OUTSIDE_WORKING_AREA: AlarmNumber = AlarmNumber(10730);
 /// A positioning axis without a velocity.
 pub(in crate::sinumerik) const NO_POSITIONING_VELOCITY: AlarmNumber = AlarmNumber(10861);
+/// RESET has waited for a gear change as long as MD10192 permits.
+pub(in crate::sinumerik) const GEAR_CHANGE_TOO_LONG: AlarmNumber = AlarmNumber(16938);
 /// The selected program does not exist.
 pub(in crate::sinumerik) const NO_PROGRAM: AlarmNumber = AlarmNumber(14014);
 /// The radii at the start and at the end of a circle differ.

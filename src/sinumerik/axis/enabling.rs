@@ -165,8 +165,10 @@ impl State {
             let disable_cycles =
                 unit.members().map(|axis| parameters.axes[axis].servo_disable_cycles).min().unwrap_or_default();
             for axis in unit.members() {
-                let (was_on, moved) =
-                    (self.axes[axis].enabling.controllers()[2], !self.axes[axis].setpoint.is_at_rest());
+                let (was_on, moved) = (
+                    self.axes[axis].enabling.controllers()[2],
+                    !self.axes[axis].setpoint.is_at_rest() && !self.axes[axis].speed_controlled,
+                );
                 self.step_control(axis, &conditions, disable_cycles);
                 if was_on && moved && !self.axes[axis].enabling.pulses_enabled() {
                     self.report_follow_up_in_motion(axis);
@@ -273,7 +275,8 @@ impl State {
         for number in unit.members() {
             let (axis, signals) = (&self.axes[number], &to_nck.axes[number]);
             conditions.standing &= axis.stands(&parameters.axes[number]);
-            conditions.moving |= axis.is_moving();
+            // A spindle in speed control brakes and turns again (S-05).
+            conditions.moving |= axis.is_moving() && !axis.speed_controlled;
             conditions.follow_up |= signals.follow_up_mode();
             if let Some(event) = self.alarms.with_reaction(Reaction::FOLLOW_UP, Some(Place::Axis(number))) {
                 conditions.alarm = event;

@@ -56,6 +56,12 @@ impl Nck {
             axis.monitor.restart_model(actual);
             return Some(0.0);
         }
+        if let Some(speed) = axis.speed_command() {
+            axis.reset_branch(branch);
+            axis.monitor.restart_model(actual);
+            self.resting.still.set(number, false);
+            return Some(limited(speed, parameters) * command);
+        }
         if let Some(held) = axis.signals.disabled_at() {
             axis.reset_branch(branch);
             axis.monitor.restart_model(actual);

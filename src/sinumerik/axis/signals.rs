@@ -53,7 +53,7 @@ impl State {
     /// Axis disable, from its start until the setpoints are at rest after it.
     fn disable(&mut self, unit: &Unit, disable: bool) {
         let leader = unit.leader();
-        let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
+        let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest() || self.axes[axis].speed_controlled);
         let ends = !disable && rest;
         if disable != self.axes[leader].signals.disabled_at.is_some() && (disable || ends) {
             let input = axis_signal(leader, axis_to_nck::axis_spindle_disable, disable);

@@ -67,6 +67,8 @@ pub(in crate::sinumerik) struct Axis {
     /// Lag of the position-control setpoint behind that of the interpolator, in increments, and the velocity for feedforward, in
     /// the last position-control cycle.
     pub branch: (f64, f64),
+    /// A spindle in speed control: the drive gets the velocity of the setpoint, which stays with the actual value.
+    pub speed_controlled: bool,
     /// The active parameter set, 0 to 5.
     pub parameter_set: u8,
     /// The data set that its drive has accepted.
@@ -141,6 +143,7 @@ impl Default for Axis {
             motion: Motion::Hold,
             unsettled: 0,
             branch: (0.0, 0.0),
+            speed_controlled: false,
             parameter_set: 0,
             drive_data_set: 0,
             arrived: false,
@@ -190,7 +193,7 @@ impl Axis {
                 == (other.feed_held, other.feed_disabled, other.feed_holder)
             && (self.key_used, self.approach_key, self.limits) == (other.key_used, other.approach_key, other.limits)
             && (self.offset, self.referenced, self.restored) == (other.offset, other.referenced, other.restored)
-            && self.jogging == other.jogging
+            && (&self.jogging, self.speed_controlled) == (&other.jogging, other.speed_controlled)
             && self.signals == other.signals
             && self.causes == other.causes
             && self.approach == other.approach

@@ -21,6 +21,12 @@ impl State {
         }
         // A unit that loses its enables brakes together, with the shortest of its emergency ramps.
         let emergency = |axis: AxisNumber| parameters.axes[axis].emergency_deceleration;
+        let leader = unit.leader();
+        if self.axes[leader].speed_controlled {
+            self.axes[leader].brake_without_control(emergency(leader));
+            self.axes[leader].execute_speed(&parameters.axes[leader], cycle);
+            return;
+        }
         match unit.grouping.map(usize::from) {
             None => self.axes[unit.leader()].brake_without_control(emergency(unit.leader())),
             Some(index) => {

@@ -197,8 +197,52 @@ Axis {
     34800 WAIT_ENC_VALID wait_enc_valid: i32 = 0; "", Range::between(0.0, 1.0), Reset;
     /// spindle that is assigned to the machine axis; 0 for an axis
     35000 SPIND_ASSIGN_TO_MACHAX spind_assign_to_machax: u8 = 0; "", Range::between(0.0, 31.0), PowerOn;
-    /// tolerance of the creep velocity in the zero mark search
+    /// gear stages: bit 0 changed anywhere, bit 1 changed at the position of MD35012, bit 3 the dialogue with the PLC is simulated; 0 none
+    35010 GEAR_STEP_CHANGE_ENABLE gear_step_change_enable: u32 = 0; "", Range::ANY, Reset;
+    /// position for a gear change, by gear stage
+    35012 GEAR_STEP_CHANGE_POSITION gear_step_change_position: [f64; 6] = [0.0; 6]; "deg", Range::POSITION, NewConf;
+    /// mode after power on, start and RESET: 0 speed control, 1 position control, 2 positioning, 3 axis
+    35020 SPIND_DEFAULT_MODE spind_default_mode: u8 = 0; "", Range::between(0.0, 3.0), Reset;
+    /// bit 19: SPOS and SPOSA output M19
+    35035 SPIND_FUNCTION_MASK spind_function_mask: u32 = 0x110; "", Range::ANY, Reset;
+    /// 1: RESET and program end do not stop the spindle
+    35040 SPIND_ACTIVE_AFTER_RESET spind_active_after_reset: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
+    /// number of gear stages
+    35090 NUM_GEAR_STEPS num_gear_steps: i32 = 5; "", Range::between(0.0, 5.0), Reset;
+    /// largest speed of the spindle, alarm 22100
+    35100 SPIND_VELO_LIMIT spind_velo_limit: f64 = 10_000.0; "rev/min", Range::NOT_NEGATIVE, PowerOn;
+    /// largest speed at which M40 takes a gear stage
+    35110 GEAR_STEP_MAX_VELO gear_step_max_velo: [f64; 6] = [500.0, 500.0, 1_000.0, 2_000.0, 4_000.0, 8_000.0]; "rev/min", Range::NOT_NEGATIVE, NewConf;
+    /// smallest speed at which M40 takes a gear stage
+    35120 GEAR_STEP_MIN_VELO gear_step_min_velo: [f64; 6] = [50.0, 50.0, 400.0, 800.0, 1_500.0, 3_000.0]; "rev/min", Range::NOT_NEGATIVE, NewConf;
+    /// largest speed of a gear stage, DBX83.1
+    35130 GEAR_STEP_MAX_VELO_LIMIT gear_step_max_velo_limit: [f64; 6] = [500.0, 500.0, 1_000.0, 2_000.0, 4_000.0, 8_000.0]; "rev/min", Range::NOT_NEGATIVE, NewConf;
+    /// smallest speed of a gear stage, DBX83.2
+    35140 GEAR_STEP_MIN_VELO_LIMIT gear_step_min_velo_limit: [f64; 6] = [5.0, 5.0, 10.0, 20.0, 40.0, 80.0]; "rev/min", Range::NOT_NEGATIVE, NewConf;
+    /// tolerance of the spindle speed, DBX83.5 and 83.0; of the creep velocity in the zero mark search
     35150 SPIND_DES_VELO_TOL spind_des_velo_tol: f64 = 0.1; "factor", Range::NOT_NEGATIVE, Reset;
+    /// speed limit while the PLC sets DBX3.6
+    35160 SPIND_EXTERN_VELO_LIMIT spind_extern_velo_limit: f64 = 1_000.0; "rev/min", Range::NOT_NEGATIVE, NewConf;
+    /// acceleration in speed control, by gear stage
+    35200 GEAR_STEP_SPEEDCTRL_ACCEL gear_step_speedctrl_accel: [f64; 6] = [30.0, 30.0, 25.0, 20.0, 15.0, 10.0]; "rev/s2", Range::POSITIVE, NewConf;
+    /// acceleration in position control, by gear stage
+    35210 GEAR_STEP_POSCTRL_ACCEL gear_step_posctrl_accel: [f64; 6] = [30.0, 30.0, 25.0, 20.0, 15.0, 10.0]; "rev/s2", Range::POSITIVE, NewConf;
+    /// speed of positioning, by gear stage
+    35300 SPIND_POSCTRL_VELO spind_posctrl_velo: [f64; 6] = [500.0; 6]; "rev/min", Range::NOT_NEGATIVE, NewConf;
+    /// direction of positioning from standstill without a reference: 3 plus, 4 minus
+    35350 SPIND_POSITIONING_DIR spind_positioning_dir: u8 = 3; "", Range::between(3.0, 4.0), Reset;
+    /// speed of oscillation
+    35400 SPIND_OSCILL_DES_VELO spind_oscill_des_velo: f64 = 500.0; "rev/min", Range::NOT_NEGATIVE, NewConf;
+    /// acceleration of oscillation
+    35410 SPIND_OSCILL_ACCEL spind_oscill_accel: f64 = 16.0; "rev/s2", Range::POSITIVE, NewConf;
+    /// first direction of oscillation: 0 as before, 3 clockwise, 4 counterclockwise
+    35430 SPIND_OSCILL_START_DIR spind_oscill_start_dir: u8 = 0; "", Range::between(0.0, 4.0), Reset;
+    /// time of oscillation clockwise
+    35440 SPIND_OSCILL_TIME_CW spind_oscill_time_cw: f64 = 1.0; "s", Range::NOT_NEGATIVE, NewConf;
+    /// time of oscillation counterclockwise
+    35450 SPIND_OSCILL_TIME_CCW spind_oscill_time_ccw: f64 = 0.5; "s", Range::NOT_NEGATIVE, NewConf;
+    /// the path of a block with a feed waits for DBX83.5: 1 at the beginning of the block
+    35500 SPIND_ON_SPEED_AT_IPO_START spind_on_speed_at_ipo_start: u8 = 1; "", Range::between(0.0, 3.0), Reset;
     /// window of exact stop coarse, DBX60.6
     36000 STOP_LIMIT_COARSE stop_limit_coarse: f64 = 0.04; "mm, deg", Range::NOT_NEGATIVE, NewConf;
     /// window of exact stop fine, DBX60.7

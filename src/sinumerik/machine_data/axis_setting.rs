@@ -1,10 +1,18 @@
-//! Axis-specific setting data, `$SA_`: working area limits, temperature compensation.
+//! Axis-specific setting data, `$SA_`: speed limits of spindles, M19, working area limits, temperature compensation.
 
 use super::table::machine_data;
 
 machine_data! {
 /// The setting data of one axis.
 AxisSetting {
+    /// smallest speed of the spindle (G25 S)
+    43210 SPIND_MIN_VELO_G25 spind_min_velo_g25: f64 = 0.0; "rev/min", Range::NOT_NEGATIVE, Immediate;
+    /// largest speed of the spindle (G26 S)
+    43220 SPIND_MAX_VELO_G26 spind_max_velo_g26: f64 = 1_000.0; "rev/min", Range::NOT_NEGATIVE, Immediate;
+    /// position of M19
+    43240 M19_SPOS m19_spos: f64 = 0.0; "deg", Range::POSITION, Immediate;
+    /// direction of M19: 0 DC from standstill and unchanged in motion, 1 IC, 2 DC, 3 AC, 4 ACP, 5 ACN
+    43250 M19_SPOSMODE m19_sposmode: u8 = 0; "", Range::between(0.0, 5.0), Immediate;
     /// the working area is limited in plus direction
     43400 WORKAREA_PLUS_ENABLE workarea_plus_enable: bool = false; "", Range::ANY, Immediate;
     /// the working area is limited in minus direction

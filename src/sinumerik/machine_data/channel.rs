@@ -19,6 +19,8 @@ Channel {
     20070 AXCONF_MACHAX_USED axconf_machax_used: [u8; 20] = [1, 2, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]; "", Range::between(0.0, 31.0), PowerOn;
     /// names of the channel axes
     20080 AXCONF_CHANAX_NAME_TAB axconf_chanax_name_tab: [String; 20] = default_names(); "", Range::ANY, PowerOn;
+    /// spindle that S and M functions without an extension concern
+    20090 SPIND_DEF_MASTER_SPIND spind_def_master_spind: u8 = 1; "", Range::between(0.0, 31.0), Reset;
     /// function of each G group after power on, RESET and the end of a program; 0 takes the first
     20150 GCODE_RESET_VALUES gcode_reset_values: PerGroup = PerGroup::default(); "", Range::ANY, Reset;
     /// jerk limit of the path with SOFT
@@ -30,6 +32,8 @@ Channel {
     20730 G0_LINEAR_MODE g0_linear_mode: bool = true; "", Range::ANY, PowerOn;
     /// output to the PLC; bit 0: M17 or M30 of a subprogram; bit 1: M1 only while DB21.DBX0.5 = 1
     20800 SPF_END_TO_VDI spf_end_to_vdi: u8 = 0; "", Range::ANY, PowerOn;
+    /// bit 0: SPOS and SPOSA output M19
+    20850 SPOS_TO_VDI spos_to_vdi: u8 = 0; "", Range::ANY, PowerOn;
     /// largest difference of the radii at the start and at the end of a circle (14040)
     21000 CIRCLE_ERROR_CONST circle_error_const: f64 = 0.01; "mm", Range::NOT_NEGATIVE, PowerOn;
     /// the same as a share of the radius; the greater of both acts
@@ -64,6 +68,8 @@ Channel {
     22254 AUXFU_ASSOC_M0_VALUE auxfu_assoc_m0_value: i32 = -1; "", Range::ANY, PowerOn;
     /// M function that acts as M1; -1 none
     22256 AUXFU_ASSOC_M1_VALUE auxfu_assoc_m1_value: i32 = -1; "", Range::ANY, PowerOn;
+    /// the speed of the spindles stays over RESET and the end of a program
+    22400 S_VALUES_ACTIVE_AFTER_RESET s_values_active_after_reset: bool = false; "", Range::ANY, PowerOn;
     /// the path feed stays over RESET and the end of a program
     22410 F_VALUES_ACTIVE_AFTER_RESET f_values_active_after_reset: bool = false; "", Range::ANY, PowerOn;
     /// G groups that DB21.DBB208 to 271 show

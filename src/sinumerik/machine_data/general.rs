@@ -17,6 +17,8 @@ General {
     10060 POSCTRL_SYSCLOCK_TIME_RATIO posctrl_sysclock_time_ratio: i32 = 1; "", Range::between(1.0, 31.0), PowerOn, read_only true;
     /// interpolation cycle in basic system cycles; one step of the simulator (O-22)
     10070 IPO_SYSCLOCK_TIME_RATIO ipo_sysclock_time_ratio: i32 = 3; "", Range::between(1.0, 100.0), PowerOn;
+    /// longest wait for a gear change before a RESET or another event, alarm 16938
+    10192 GEAR_CHANGE_WAIT_TIME gear_change_wait_time: f64 = 10.0; "s", Range::NOT_NEGATIVE, PowerOn;
     /// computational resolution of linear axes
     10200 INT_INCR_PER_MM int_incr_per_mm: f64 = 1_000.0; "1/mm", Range::POSITIVE, PowerOn;
     /// computational resolution of rotary axes
@@ -68,6 +70,10 @@ General {
     12040 OVR_RAPID_IS_GRAY_CODE ovr_rapid_is_gray_code: bool = true; "", Range::ANY, PowerOn;
     /// rapid traverse override of each switch position
     12050 OVR_FACTOR_RAPID_TRA ovr_factor_rapid_tra: [f64; 31] = FEED_OVERRIDE.map(|factor| factor.min(1.0)); "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// spindle override in Gray code; otherwise in binary
+    12060 OVR_SPIND_IS_GRAY_CODE ovr_spind_is_gray_code: bool = true; "", Range::ANY, PowerOn;
+    /// spindle override for each position of the switch
+    12070 OVR_FACTOR_SPIND_SPEED ovr_factor_spind_speed: [f64; 31] = SPINDLE_OVERRIDE; "factor", Range::NOT_NEGATIVE, PowerOn;
     /// limit of a binary coded override
     12100 OVR_FACTOR_LIMIT_BIN ovr_factor_limit_bin: f64 = 1.2; "factor", Range::NOT_NEGATIVE, PowerOn;
     /// interface signals; bit 0: the traverse commands 64.6 and 64.7 are output 0 with the request, 1 only while the axis may move
@@ -82,6 +88,12 @@ scope General
 const FEED_OVERRIDE: [f64; 31] = [
     0.0, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05, 1.1,
     1.15, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2,
+];
+
+/// The spindle override switch has 15 positions from 50 %; the remaining positions have the last value.
+const SPINDLE_OVERRIDE: [f64; 31] = [
+    0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05, 1.1, 1.15, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2,
+    1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2,
 ];
 
 /// X1, Y1, Z1, A1, B1, C1, U1, V1, W1 and, as our own continuation, X2 and so on.

@@ -15,6 +15,8 @@ Setting {
     41110 JOG_SET_VELO jog_set_velo: f64 = 0.0; "mm/min", Range::NOT_NEGATIVE, Immediate;
     /// velocity of keys of rotary axes; 0 takes MD32020
     41130 JOG_ROT_AX_SET_VELO jog_rot_ax_set_velo: f64 = 0.0; "rev/min", Range::NOT_NEGATIVE, Immediate;
+    /// speed of keys of spindles; 0 takes MD32020
+    41200 JOG_SPIND_SET_VELO jog_spind_set_velo: f64 = 0.0; "rev/min", Range::NOT_NEGATIVE, Immediate;
     /// the table $AN_CEC with this number is evaluated
     41300 CEC_TABLE_ENABLE cec_table_enable: PerTable<bool> = PerTable::filled(false); "", Range::ANY, Immediate;
     /// factor of the values of the table $AN_CEC with this number

@@ -8,6 +8,7 @@
 //! | `gantry/synchronism.rs` | the synchronism difference of a grouping | 10652, 10653 |
 //! | `position.rs` | standstill, positioning to exact stop, clamping and contour of an axis | 25040, 25080, 26000, 25050 |
 //! | `speed.rs` | actual velocity and speed setpoint | 25030, 25060 |
+//! | `spindle.rs` | speed of a spindle | 22100 |
 //! | `encoders.rs` | frequency, faults, zero marks and differences of the encoders, and their switch-over | 21610, 21613, 25000 to 25021, 25100 to 25110 |
 //! | `drive.rs` | the status of a drive | 25201, 25202 |
 //!
@@ -19,6 +20,7 @@ mod drive;
 mod encoders;
 mod position;
 mod speed;
+mod spindle;
 pub(super) mod state;
 
 use crate::image::nck_from_nck;
@@ -76,6 +78,7 @@ impl State {
             return;
         }
         self.monitor_speed(number, axis);
+        self.monitor_spindle(number, axis);
         self.monitor_position(number, axis);
     }
 }

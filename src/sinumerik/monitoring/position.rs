@@ -26,7 +26,7 @@ impl State {
     pub(in crate::sinumerik) fn monitor_position(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let follows_up = self.axes[number].enabling.follow_up;
         let actual = self.axes[number].actual;
-        if follows_up {
+        if follows_up || self.axes[number].speed_controlled {
             self.axes[number].monitor.restart(actual);
             return;
         }

@@ -23,13 +23,15 @@ impl State {
         let wanted = if resting || !axis.enabling.is_powered() {
             0.0
         } else {
-            axis.velocity_wanted(set, axis.setpoint.position, axis.actual, axis.half_count)
+            let wanted = || axis.velocity_wanted(set, axis.setpoint.position, axis.actual, axis.half_count);
+            axis.speed_command().unwrap_or_else(wanted)
         };
         let limited = wanted.abs() > limits.speed_setpoint_limit;
         axis.monitor.limited_cycles =
             if limited { (axis.monitor.limited_cycles + 1).min(limits.speed_setpoint_cycles + 1) } else { 0 };
         let too_long = axis.monitor.limited_cycles > limits.speed_setpoint_cycles;
-        if velocity.abs() > set.velocity_limit {
+        // MD35100 limits a spindle, not MD36200.
+        if velocity.abs() > set.velocity_limit && parameters.spindle.is_none() {
             let measured = (Quantity::Velocity, velocity);
             let inputs = velocities(number, measured, 36200, set.velocity_limit);
             self.raise_monitoring(alarms::ACTUAL_VELOCITY, number, Rule::VelocityMonitoring, inputs);

@@ -70,6 +70,7 @@ impl State {
         let event = self.log.note_one(place, Rule::ResetDone, input, EventId::NONE);
         self.channels[channel].reset_cause = event;
         self.reset_program(channel, event);
+        self.end_spindle_functions(channel, parameters, event);
         let concerns = |place| self.owners.concerns_channel(parameters, place, channel);
         self.alarms.cancel(Cancel::Reset, event, concerns);
         if self.programs[channel].run.is_none() {

@@ -5,6 +5,7 @@ use crate::sinumerik::parameters::compensation::{AxisCompensation, axis_compensa
 use crate::sinumerik::parameters::dynamics::{Dynamics, dynamics, jerk};
 use crate::sinumerik::parameters::mechanics::{Mechanics, PerEncoder};
 use crate::sinumerik::parameters::monitoring::{Monitoring, monitoring};
+use crate::sinumerik::parameters::spindle::{SpindleParameters, spindle};
 use crate::units::{AxisNumber, ChannelNumber, Position, Time};
 
 /// Facts about an axis beside its machine data.
@@ -219,6 +220,8 @@ pub struct AxisParameters {
     pub reference: Reference,
     /// Gantry.
     pub gantry: Gantry,
+    /// Its data as a spindle, if it is one.
+    pub spindle: Option<Box<SpindleParameters>>,
     /// Monitoring.
     pub(in crate::sinumerik) monitoring: Monitoring,
     /// Backlash, leadscrew error, sag and temperature.
@@ -292,6 +295,7 @@ pub(super) fn axis(
         servo_disable_cycles: cycles(md.servo_disable_delay_time),
         reference: reference(md, maximum_velocity, &velocity),
         gantry: gantry(md, is_declared_geometry_axis),
+        spindle: spindle(data, number, cycle),
         monitoring: monitoring(md, cycle),
         compensation: axis_compensation(data, number, maximum_velocity, cycle.seconds(), servo_cycles),
     }

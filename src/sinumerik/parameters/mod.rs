@@ -14,6 +14,7 @@ pub(super) mod monitoring;
 pub(super) mod overrides;
 pub(super) mod programs;
 pub(super) mod sag;
+pub(super) mod spindle;
 
 use arrayvec::ArrayVec;
 
@@ -81,6 +82,8 @@ pub struct Parameters {
     pub mode_after_power_on: PerModeGroup<i32>,
     /// The axes that exist.
     pub existing: AxisSet,
+    /// The axes that are spindles.
+    pub spindles: AxisSet,
     /// The axes.
     pub axes: PerAxis<AxisParameters>,
     /// The groupings defined by MD37100, and the faults of their definition.
@@ -134,6 +137,10 @@ impl Parameters {
             serupro_ignores_start: data.general.serupro_mask & 2 == 2,
             search_waits_for_plc: data.general.search_run_mode & 1 == 1,
             existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
+            spindles: {
+                let spindles = axes.iter().filter(|(_, axis)| axis.exists && axis.spindle.is_some());
+                spindles.map(|(number, _)| number).collect()
+            },
             channels: channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
             groupings: define(data, &axes),

@@ -100,8 +100,8 @@ pub(in crate::sinumerik) struct ProgramAxes {
     pub names: Arc<AxisNames>,
     /// The machine axis of each name.
     pub machine_axes: Arc<[AxisNumber]>,
-    /// The machine axes that can be on the path: geometry axes first. A synchronous axis of a grouping is not among them. Another channel or
-    /// the PLC may have one of them.
+    /// The machine axes that can be on the path: geometry axes first. Synchronous axes of groupings and spindles are not among them. Another
+    /// channel or the PLC may have one of them.
     pub path: ArrayVec<AxisNumber, PATH_AXES>,
     /// The places of geometry axes 1 to 3 in the path.
     pub geometry: [Option<usize>; 3],
@@ -120,6 +120,14 @@ impl ProgramAxes {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::sinumerik) struct ProgramParameters {
     pub axes: ProgramAxes,
+    /// The spindles of the channel: their numbers (MD35000) and axes.
+    pub spindles: Vec<(u8, AxisNumber)>,
+    /// MD20090: the spindle of functions without an extension; 0 if the channel does not have it.
+    pub master_spindle: u8,
+    /// MD22400.
+    pub speed_stays: bool,
+    /// MD20850 bit 0.
+    pub outputs_m19: bool,
     /// MD28050.
     pub r_parameters: u32,
     /// MD20150.
@@ -181,6 +189,12 @@ impl ProgramParameters {
             one.kind == kind && (one.extension < 0 || one.extension == i32::from(extension)) && is_value
         });
         named.map(|one| one.group)
+    }
+
+    /// The axis of a spindle; 0 is the master spindle.
+    pub(in crate::sinumerik) fn spindle(&self, number: u16) -> Option<AxisNumber> {
+        let number = if number == 0 { u16::from(self.master_spindle) } else { number };
+        self.spindles.iter().find(|(other, _)| u16::from(*other) == number).map(|(_, axis)| *axis)
     }
 
     pub(in crate::sinumerik) fn output_time(&self, kind: AuxiliaryKind) -> OutputTime {
@@ -254,10 +268,18 @@ pub(in crate::sinumerik) fn programs(
         (md.auxfu_h_sync_type, OutputTime::Before),
         (md.auxfu_f_sync_type, OutputTime::Never),
     ];
+    let of_channel = axes.iter().filter(|(_, axis)| axis.exists && axis.channel == channel);
+    let spindles: Vec<_> =
+        of_channel.filter_map(|(number, axis)| Some((axis.spindle.as_ref()?.number, number))).collect();
+    let has_master = spindles.iter().any(|(number, _)| *number == md.spind_def_master_spind);
     let own_axes = program_axes(data, md, channel, axes);
     ProgramParameters {
         jerk_window: jerk_window(data, &own_axes, axes, (md.max_path_jerk, cycle)),
         axes: own_axes,
+        master_spindle: if has_master { md.spind_def_master_spind } else { 0 },
+        spindles,
+        outputs_m19: md.spos_to_vdi & 1 == 1,
+        speed_stays: md.s_values_active_after_reset,
         r_parameters: u32::try_from(md.mm_num_r_param).unwrap_or(0),
         modal,
         circle_tolerance: Position::from_user(md.circle_error_const).increments() as f64,
@@ -342,7 +364,7 @@ fn program_axes(
     let mut path = ArrayVec::<AxisNumber, PATH_AXES>::new();
     let others = (0..md.axconf_machax_used.len()).map(channel_axis);
     for axis in geometry.into_iter().chain(others).flatten() {
-        if !is_synchronous(axis) && !path.contains(&axis) {
+        if !is_synchronous(axis) && axes[axis].spindle.is_none() && !path.contains(&axis) {
             // A channel with more axes than a path can have interpolates the first of them.
             let _ = path.try_push(axis);
         }
@@ -373,13 +395,15 @@ impl ProgramParameters {
     }
 
     /// The feed of a block while the dry run is active: SD42101 decides between SD42100 and the programmed feed.
-    pub(in crate::sinumerik) fn dry_run_feed(&self, feed: Feed, is_active: bool) -> Feed {
+    pub(in crate::sinumerik) fn dry_run_feed(&self, feed: Feed, per_revolution: bool, is_active: bool) -> Feed {
         let Feed::Programmed(programmed) = feed else { return feed };
         if !is_active {
             return feed;
         }
         let dry = self.dry_run.0 * Position::PER_USER_UNIT / 60.0;
         Feed::Programmed(match self.dry_run.1 {
+            // G95 acts as G94 with SD42100.
+            _ if per_revolution => dry,
             0 => programmed.max(dry),
             1 => programmed.min(dry),
             _ => dry,

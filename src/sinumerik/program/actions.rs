@@ -31,6 +31,17 @@ impl State {
                 }
                 run.path.place(on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position));
             }
+            Action::SpindlePosition { spindle, value, dimension, .. } => {
+                if let Some(axis) = stage.own.spindle(spindle.unwrap_or(0)) {
+                    self.position_spindle(axis, (value, dimension), stage.parameters, run.block_cause);
+                }
+            }
+            Action::Limit { is_upper, spindles, .. } => {
+                for (spindle, limit) in spindles {
+                    run.spindle_limits
+                        .extend(stage.own.spindle(spindle.unwrap_or(0)).map(|axis| (is_upper, axis, limit)));
+                }
+            }
             Action::NewConfiguration => run.new_conf = true,
             Action::Synchronised(action) => self.begin_action(*action, run, stage),
             Action::Cancel(ids) => self.cancel_actions(&ids, stage),

@@ -6,8 +6,8 @@
 //! The next package follows after a cycle with change bits of 0. Functions with QU are acknowledged in the next cycle, without a scan; with
 //! MD22100 = 1 the program does not wait for them at all.
 //!
-//! Choices where the manuals leave one: an M function is decoded with extension 0, or 1 for M3 to M5, M19, M70 and M40 to M45 (nc_programs.md
-//! 2.5); values stay until the next output of their place. RESET does not withdraw what is output.
+//! Choices where the manuals leave one: an M function is decoded with extension 0; M3 to M5, M19, M70 and M40 to M45 also with the number of the
+//! master spindle, or 1 without a spindle (nc_programs.md 2.5); values stay until the next output of their place. RESET does not withdraw what is output.
 
 use std::collections::VecDeque;
 
@@ -33,6 +33,10 @@ pub(in crate::sinumerik) struct Entry {
     pub extension: u16,
     pub value: f64,
     pub is_quick: bool,
+    /// An M function that has a decoded signal, if its number is below 100.
+    pub is_decoded: bool,
+    /// A function of a spindle of the channel.
+    pub is_of_spindle: bool,
 }
 
 impl Entry {
@@ -74,6 +78,8 @@ pub(in crate::sinumerik) struct Output {
     /// Change bits and decoded M functions are in the interface.
     is_shown: bool,
     unacknowledged: Option<Unacknowledged>,
+    /// The package that the PLC has not acknowledged.
+    package: Option<Package>,
     /// The event behind the last change.
     pub cause: EventId,
 }
@@ -82,6 +88,17 @@ impl Output {
     /// Whether a program has to wait for something that is output or waits for it.
     pub(in crate::sinumerik) fn is_busy(&self) -> bool {
         self.unacknowledged.is_some_and(|one| !one.is_free) || self.waiting.iter().any(|one| !one.is_free)
+    }
+
+    /// Whether functions of spindles are output or wait for it.
+    pub(in crate::sinumerik) fn concerns_spindles(&self) -> bool {
+        let packages = self.package.iter().chain(self.waiting.iter().map(|one| &one.package));
+        packages.flatten().any(|entry| entry.is_of_spindle)
+    }
+
+    /// The package that the PLC has not acknowledged.
+    pub(in crate::sinumerik) fn pending(&self) -> Package {
+        self.package.clone().unwrap_or_default()
     }
 
     /// Whether something waits behind the package that is output.
@@ -98,13 +115,15 @@ impl Output {
     }
 
     /// Takes note of an acknowledgement: the PLC had seen this cycle when it wrote what the control reads now. Quick functions are acknowledged
-    /// in the cycle after their output.
-    pub(in crate::sinumerik) fn acknowledge(&mut self, cycle: u64, seen: Option<u64>) {
+    /// in the cycle after their output. Returns the package that was acknowledged.
+    pub(in crate::sinumerik) fn acknowledge(&mut self, cycle: u64, seen: Option<u64>) -> Option<Package> {
         let is_acknowledged =
             |one: &Unacknowledged| one.is_quick && one.cycle < cycle || seen.is_some_and(|seen| one.cycle <= seen);
         if self.unacknowledged.as_ref().is_some_and(is_acknowledged) {
             self.unacknowledged = None;
+            return self.package.take();
         }
+        None
     }
 
     /// Whether change bits and decoded M functions have been shown for one scan.
@@ -136,6 +155,7 @@ impl Output {
         }
         self.is_shown = true;
         self.unacknowledged = Some(Unacknowledged { cycle, is_quick: is_quick(&package), is_free });
+        self.package = Some(package);
         Some(cause)
     }
 
@@ -162,7 +182,7 @@ impl Output {
                 self.put(at, &entry.extension.to_be_bytes());
                 let value = unsigned(entry.value);
                 self.put(at + 2, &value.to_be_bytes());
-                match decoded(entry.extension, value) {
+                match u8::try_from(value).ok().filter(|number| entry.is_decoded && *number < 100) {
                     Some(number) => {
                         self.set_bit(signal::decoded_m_function_0.byte + u16::from(number) / 8, number % 8);
                     }
@@ -230,13 +250,6 @@ const fn change_bits(kind: AuxiliaryKind) -> (Signal, Signal) {
         AuxiliaryKind::H => (signal::h_function_1_change, signal::h_function_1_quick),
         AuxiliaryKind::F => (signal::f_function_1_change, signal::f_function_1_quick),
     }
-}
-
-/// The number of the decoded signal of an M function.
-fn decoded(extension: u16, value: u32) -> Option<u8> {
-    let of_spindle = matches!(value, 3..=5 | 19 | 70 | 40..=45);
-    let decodes = extension == 0 || extension == 1 && of_spindle;
-    u8::try_from(value).ok().filter(|number| decodes && *number < 100)
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]

@@ -19,7 +19,9 @@ use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ChangeTime;
 use crate::sinumerik::program::path::Stage;
-use crate::sinumerik::program::state::{Change, Phase, Preparation, ProgramState, ProgramTest, Run, on_path};
+use crate::sinumerik::program::state::{
+    Change, Executable, Phase, Preparation, ProgramState, ProgramTest, Run, on_path,
+};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisSet, ChannelNumber};
@@ -229,19 +231,20 @@ impl Run {
     }
 
     /// The feed of a block: that of the dry run, or of a search by program test.
-    pub(super) fn effective_feed(&self, feed: Feed, stage: &Stage<'_>) -> Feed {
+    pub(super) fn effective_feed(&self, feed: Feed, per_revolution: bool, stage: &Stage<'_>) -> Feed {
         if self.search.as_ref().is_some_and(|search| search.is_by_program_test()) {
             return stage.own.search_feed(feed);
         }
-        stage.own.dry_run_feed(feed, self.dry_run)
+        stage.own.dry_run_feed(feed, per_revolution, self.dry_run)
     }
 
     /// The blocks on the path get the feed that is in effect now.
     pub(super) fn refeed(&mut self, stage: &Stage<'_>) {
         let (queue, dry_run) = (&self.queue, self.dry_run);
         self.path.set_feeds(|number, feed| {
-            let programmed = queue.iter().filter_map(|block| block.way).find(|way| way.number == number);
-            programmed.map_or(feed, |way| stage.own.dry_run_feed(way.feed, dry_run))
+            let of_block = |block: &Executable| Some((block.way?, block.is_per_revolution()));
+            let programmed = queue.iter().filter_map(of_block).find(|(way, _)| way.number == number);
+            programmed.map_or(feed, |(way, per_revolution)| stage.own.dry_run_feed(way.feed, per_revolution, dry_run))
         });
     }
 }

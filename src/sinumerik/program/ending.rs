@@ -23,6 +23,9 @@ impl State {
             run.dwell -= 1;
             return false;
         }
+        if self.dwells_for_turns(&mut run.dwell_turns, stage) {
+            return false;
+        }
         if run.waits.is_some() {
             self.show_wait(run, stage);
             return false;
@@ -32,6 +35,9 @@ impl State {
         }
         let waited = block.actions.iter().any(|action| matches!(action, Action::WaitForPosition(_)));
         if waited && !run.positionings.is_empty() || !self.references_are_done(run) {
+            return false;
+        }
+        if !self.spindles_have_arrived(&block.actions, stage.own, stage.parameters) {
             return false;
         }
         if self.waits_for_axes(run, stage) {
@@ -87,6 +93,7 @@ impl State {
         }
         if block.end == Some(End::Program) {
             let event = self.log.note_one(place, Rule::ProgramEnded, input, run.block_cause);
+            self.end_spindle_functions(channel, stage.parameters, event);
             self.end_program(channel, stage.own, event, true);
             return Progress::Ended;
         }

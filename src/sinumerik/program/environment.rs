@@ -17,9 +17,11 @@ use crate::sinumerik::machine_data::{
 };
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
+use crate::sinumerik::parameters::spindle::REVOLUTION_PER_MINUTE;
 use crate::sinumerik::program::main_run::MAIN_RUN_VARIABLES;
 use crate::sinumerik::program::state::{ChannelProgram, ProgramState, Run};
 use crate::sinumerik::single_axis::state::SingleAxes;
+use crate::sinumerik::spindle::state::{Mode, Spindle};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
 use crate::variables::RParameters;
 
@@ -31,6 +33,7 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub owners: &'a Owners,
     pub single: &'a SingleAxes,
     pub all: &'a Parameters,
+    pub spindles: &'a PerAxis<Option<Box<Spindle>>>,
     pub r_parameters: &'a mut RParameters,
     pub library: &'a Library,
     pub stored: &'a MachineData,
@@ -53,6 +56,8 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub search_level: u8,
     /// R parameters that were written, with their values before.
     pub r_written: Vec<(u16, f64)>,
+    /// What prepared blocks have given to spindles.
+    pub prepared_spindles: Vec<(u16, f64, i32)>,
     pub end: [f64; crate::motion::path::PATH_AXES],
     pub is_executed: bool,
 }
@@ -61,6 +66,7 @@ impl<'a> Channel<'a> {
     /// Where the prepared blocks end.
     pub(in crate::sinumerik) fn take_run(&mut self, run: &Run) {
         self.end = run.end;
+        self.prepared_spindles.clone_from(&run.prepared_spindles);
         self.is_executed = run.is_executed();
         (self.modal, self.feed) = (run.interpreter.modal(), run.interpreter.feed());
     }
@@ -151,6 +157,32 @@ impl<'a> Channel<'a> {
         written.map(|(_, value)| value.clone()).or_else(|| self.stored.get(target))
     }
 
+    /// $AA_S and other variables of a spindle: its number is the index, 0 the master spindle.
+    fn spindle_value(&self, variable: &SystemVariable<'_>) -> Result<Value, Refusal> {
+        let number = variable.indices.first().and_then(Value::number).unwrap_or(0.0);
+        let named = self.parameters.spindles.iter().map(|(number, _)| u16::from(*number));
+        let known = named.chain([0]).find(|known| (f64::from(*known) - number).abs() < 1e-9);
+        let axis = known.and_then(|known| self.parameters.spindle(known)).ok_or(Refusal::FirstIndex)?;
+        let spindle = self.spindles[axis].as_deref().ok_or(Refusal::FirstIndex)?;
+        let known = known.filter(|known| *known != 0).unwrap_or_else(|| self.parameters.master_spindle.into());
+        let prepared = self.prepared_spindles.iter().find(|(of, ..)| *of == known);
+        let actual = self.axes[axis].velocity / REVOLUTION_PER_MINUTE;
+        Ok(match variable.name {
+            "$AA_S" => Value::Real(actual),
+            "$P_S" => Value::Real(prepared.map_or(spindle.speed, |(_, speed, _)| *speed)),
+            "$P_SDIR" => {
+                Value::Int(prepared.map_or_else(|| spindle.direction_in_words(), |(.., direction)| *direction))
+            }
+            "$AC_SDIR" => Value::Int(spindle.direction_in_words()),
+            "$AC_SMODE" => Value::Int(match spindle.mode {
+                Mode::Control => 1,
+                Mode::Positioning(_) => 2,
+                Mode::Axis => 4,
+            }),
+            _ => Value::Int(spindle.gear_stage.into()),
+        })
+    }
+
     /// `$P_UIFR[1,X,TR]`: the index in G group 8 and the axis.
     fn settable_offset(&self, variable: &SystemVariable<'_>) -> Result<(u8, AxisNumber), Refusal> {
         let [number, axis, part] = variable.indices else { return Err(Refusal::FirstIndex) };
@@ -236,6 +268,9 @@ impl Environment for Channel<'_> {
                 Ok(Value::Int(self.single.status(axis, is_single)))
             }
             "$AA_REF" => Ok(Value::Int(i32::from(self.axes[axis()?].is_referenced()))),
+            "$P_MSNUM" => Ok(Value::Int(self.parameters.master_spindle.into())),
+            "$P_NUM_SPINDLES" => Ok(Value::Int(i32::try_from(self.parameters.spindles.len()).unwrap_or(0))),
+            "$AA_S" | "$P_S" | "$P_SDIR" | "$AC_SDIR" | "$AC_SMODE" | "$AC_SGEAR" => self.spindle_value(variable),
             "$P_UIFR" => {
                 let (index, axis) = self.settable_offset(variable)?;
                 Ok(length(self.program.settable_offset(index, axis)))

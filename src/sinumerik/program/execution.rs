@@ -12,6 +12,7 @@
 
 use crate::control::Changes;
 use crate::image::ToNck;
+use crate::motion::path::Feed;
 use crate::nc_program::{End, Library};
 use crate::sinumerik::alarms::programs::STILL_POSITIONED;
 use crate::sinumerik::alarms::{Alarm, Reaction};
@@ -26,6 +27,7 @@ use crate::sinumerik::program::state::{
     BlockAlarm, Phase, Preparation, ProgramState, ProgrammedStop, Run, block_name, on_path,
 };
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::spindle::functions::limit_of_spindle;
 use crate::sinumerik::state::State;
 use crate::units::{AxisSet, ChannelNumber};
 use crate::variables::{EventId, Input, Parameter, Place, short_text};
@@ -61,7 +63,7 @@ impl Nck {
         let mut starts = Vec::new();
         for (channel, _) in parameters.existing_channels() {
             let Some(own) = parameters.programs[channel].as_deref() else { continue };
-            let taken_back = state.acknowledge(channel, changes);
+            let taken_back = state.acknowledge(channel, (own, parameters), changes);
             if let Some(mut run) = state.programs[channel].run.take() {
                 let stage = Stage { channel, parameters, own, to_nck };
                 let (written, tables) = (&mut written, &mut tables);
@@ -69,6 +71,7 @@ impl Nck {
                 let stays = state.run_program(&mut run, &stage, &mut sources);
                 new_conf |= std::mem::take(&mut run.new_conf);
                 starts.append(&mut run.starts);
+                written.extend(run.spindle_limits.drain(..).filter_map(limit_of_spindle));
                 if stays {
                     state.programs[channel].run = Some(run);
                 } else {
@@ -81,6 +84,7 @@ impl Nck {
             if begins && let Some(cause) = state.programs[channel].output.next(cycle, own.whole_h_functions) {
                 let event = state.log.now(Place::Channel(channel), cause, Rule::AuxiliaryOutput, [Input::None; 3]);
                 state.programs[channel].output.cause = event;
+                state.show_spindle_functions(&state.programs[channel].output.pending(), own, event);
             }
         }
         for start in starts {
@@ -99,19 +103,6 @@ impl Nck {
 }
 
 impl State {
-    /// What the PLC has seen is acknowledged; what was shown for one scan is taken back. Returns whether something was.
-    fn acknowledge(&mut self, channel: ChannelNumber, changes: &Changes) -> bool {
-        let output = &mut self.programs[channel].output;
-        output.acknowledge(self.log.cycle, changes.seen);
-        let was_shown = output.was_shown(changes.scanned);
-        if was_shown {
-            let before = output.cause;
-            let event = self.log.note_plain(Place::Channel(channel), Rule::AuxiliaryAcknowledged, before);
-            self.programs[channel].output.take_back(event);
-        }
-        was_shown
-    }
-
     /// One cycle of a program. Returns whether it is still there.
     fn run_program(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> bool {
         let channel = stage.channel;
@@ -140,7 +131,7 @@ impl State {
             }
         }
         if let Some(event) = run.resetting {
-            if self.program_rests(run, stage) {
+            if self.program_rests(run, stage) && !self.reset_waits_for_gear(stage, event) {
                 let event = self.log.now(Place::Channel(channel), event, Rule::ProgramAborted, [Input::None; 3]);
                 self.end_program(channel, stage.own, event, false);
                 return false;
@@ -239,6 +230,7 @@ impl State {
                 continue;
             }
             let stops = stops || next.modal.index(21) != last.modal.index(21);
+            let stops = stops || last.modal.index(15) != next.modal.index(15);
             if outputs || stops || !next.is_plain() || !run.positionings.is_empty() {
                 return;
             }
@@ -246,7 +238,7 @@ impl State {
                 return;
             }
             let Some(mut block) = next.way else { return };
-            block.feed = run.effective_feed(block.feed, stage);
+            block.feed = run.effective_feed(block.feed, next.is_per_revolution(), stage);
             if run.path.append(block, cycle).is_err() {
                 return;
             }
@@ -293,7 +285,7 @@ impl State {
         match run.phase {
             Phase::Between => self.take_next_block(run, stage, sources),
             Phase::Before => {
-                if self.programs[channel].output.is_busy() {
+                if self.programs[channel].output.is_busy() || self.gear_changing(stage).is_some() {
                     return Progress::Waits;
                 }
                 self.begin_motion(run, stage, sources);
@@ -311,7 +303,9 @@ impl State {
             Phase::After => {
                 // The program ends when what POSA has started is over, too.
                 let ends = run.queue.front().is_some_and(|block| block.end == Some(End::Program));
-                if self.programs[channel].output.is_busy() || ends && !run.positionings.is_empty() {
+                let moves = !run.positionings.is_empty() || self.spindles_are_positioned(stage.own);
+                let changes = self.gear_changing(stage).is_some();
+                if self.programs[channel].output.is_busy() || ends && moves || changes {
                     return Progress::Waits;
                 }
                 self.end_block(run, stage)
@@ -342,6 +336,7 @@ impl State {
             owners: &self.owners,
             single: &self.single,
             all: stage.parameters,
+            spindles: &self.spindles,
             r_parameters: &mut self.r_parameters,
             library: sources.library,
             stored: sources.stored,
@@ -356,6 +351,7 @@ impl State {
             feed: run.interpreter.feed(),
             r_written: Vec::new(),
             search_level: run.search.as_ref().map_or(0, |search| search.level()),
+            prepared_spindles: Vec::new(),
             end: run.end,
             is_executed: run.is_executed(),
         };
@@ -453,7 +449,7 @@ impl State {
             let is_soft = block.modal.index(21) == 2;
             run.path.set_jerk_window(if is_soft { stage.own.jerk_window } else { 1 });
         }
-        run.dwell = block.dwell;
+        (run.dwell, run.dwell_turns) = (block.dwell, block.dwell_turns);
         let positions = block.positions.clone();
         let mut references = AxisSet::NONE;
         // In a program test nothing moves, so G74 does nothing (P-62).
@@ -466,9 +462,10 @@ impl State {
         run.path.set_limits(run.limits);
         // A block into which the path would have passed is there already.
         if let (Some(mut way), 0) = (block.way, run.on_path) {
-            way.feed = run.effective_feed(way.feed, stage);
+            way.feed = run.effective_feed(way.feed, block.is_per_revolution(), stage);
             if run.path.append(way, cycle).is_ok() {
                 run.on_path = 1;
+                run.awaits_spindles = matches!(way.feed, Feed::Programmed(_));
             }
         }
         let actions = block.actions.clone();

@@ -41,6 +41,11 @@ pub(in crate::sinumerik) fn feed(per_minute: f64, block: &Block, basic_is_inch: 
     per_minute * if inch { INCH } else { 1.0 } * Position::PER_USER_UNIT / 60.0
 }
 
+/// G95: the feed is in mm per revolution of the master spindle.
+pub(in crate::sinumerik) fn is_per_revolution(block: &Block) -> bool {
+    block.modal.index(15) == 3
+}
+
 /// A programmed length in increments.
 pub(in crate::sinumerik) fn length(value: f64, block: &Block, is_rotary: bool) -> f64 {
     let factor = if is_inch(block) && !is_rotary { INCH } else { 1.0 };

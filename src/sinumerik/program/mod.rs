@@ -25,6 +25,7 @@
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
 //! | `positioning.rs` | POS and POSA |
 //! | `referencing.rs` | G74 |
+//! | `refused.rs` | couplings and spindles that the channel does not have |
 //! | `preset.rs` | PRESETON, and PRESET of the operator |
 //! | `auxiliary.rs` | output of auxiliary functions: DB21.DBB58 to 206 |
 //!
@@ -53,6 +54,7 @@ pub(super) mod positioning;
 pub(super) mod preparation;
 pub(super) mod preset;
 pub(super) mod referencing;
+pub(super) mod refused;
 pub(super) mod search;
 pub(super) mod search_state;
 pub(super) mod selection;

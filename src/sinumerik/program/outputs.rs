@@ -1,25 +1,34 @@
 //! The auxiliary functions of a block: when each is output, and which stop the program.
 
-use crate::nc_program::{AuxiliaryFunction, AuxiliaryKind, Block, End};
-use crate::sinumerik::parameters::programs::OutputTime;
+use crate::control::Changes;
+use crate::nc_program::{Action, AuxiliaryFunction, AuxiliaryKind, Block, End};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
+use crate::sinumerik::parameters::spindle::SpindleParameters;
 use crate::sinumerik::program::auxiliary::{Entry, Package};
 use crate::sinumerik::program::preparation::Preparing;
 use crate::sinumerik::program::state::{Executable, ProgrammedStop};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::spindle::functions::SPINDLE_FUNCTIONS;
+use crate::sinumerik::state::State;
+use crate::units::ChannelNumber;
+use crate::variables::Place;
 
 impl Preparing<'_> {
     /// Sorts the auxiliary functions by the time of their output, and finds programmed stops.
     pub(super) fn take_outputs(&self, block: &Block, moves: bool, done: &mut Executable) {
         let mut entries = [const { Vec::<Entry>::new() }; 3];
         let mut places = [0_u8; 7];
+        if let Some(entry) = self.m19_of_position(block) {
+            entries[0].push(entry);
+            places[order(AuxiliaryKind::M)] += 1;
+        }
         for function in &block.auxiliary {
             let place = &mut places[order(function.kind)];
-            let entry = Entry {
-                kind: function.kind,
-                place: *place,
-                extension: function.extension.unwrap_or(0),
-                value: function.value,
-                is_quick: function.is_quick,
-            };
+            if self.take_m19(function, done) {
+                continue;
+            }
+            let entry = entry(function, *place, self.own);
             *place += 1;
             let stop = self.programmed_stop(function);
             if stop != ProgrammedStop::None {
@@ -46,6 +55,47 @@ impl Preparing<'_> {
             // A block has at most ten auxiliary functions (14750).
             *package = entries.into_iter().take(Package::new().capacity()).collect();
         }
+    }
+
+    /// M19 of a spindle is SPOS at SD43240. Returns whether it is not output: only MD20850 or MD35035 bit 19 do that.
+    fn take_m19(&self, function: &AuxiliaryFunction, done: &mut Executable) -> bool {
+        let is_m19 = function.kind == AuxiliaryKind::M && is_number(function, 19);
+        let spindle = function.extension.unwrap_or(0);
+        let Some(axis) = self.own.spindle(spindle).filter(|_| is_m19) else { return false };
+        let Some(data) = self.parameters.axes[axis].spindle.as_deref() else { return false };
+        let (value, dimension) = data.m19;
+        done.actions.push(Action::SpindlePosition { spindle: Some(data.number.into()), value, dimension, waits: true });
+        !self.outputs_m19(data)
+    }
+
+    fn outputs_m19(&self, data: &SpindleParameters) -> bool {
+        data.outputs_m19 || self.own.outputs_m19
+    }
+
+    /// The M19 that SPOS or SPOSA outputs.
+    fn m19_of_position(&self, block: &Block) -> Option<Entry> {
+        let spindle = block.actions.iter().find_map(|action| match action {
+            Action::SpindlePosition { spindle, .. } => Some(spindle.unwrap_or(0)),
+            _ => None,
+        })?;
+        let data = self.parameters.axes[self.own.spindle(spindle)?].spindle.as_deref()?;
+        self.outputs_m19(data).then(|| Entry {
+            kind: AuxiliaryKind::M,
+            place: 0,
+            extension: data.number.into(),
+            value: 19.0,
+            is_quick: false,
+            is_decoded: data.number == self.own.master_spindle,
+            is_of_spindle: true,
+        })
+    }
+
+    /// The number of a spindle that a function names and the channel, which has spindles, does not have (16100).
+    pub(super) fn unknown_spindle(&self, block: &Block) -> Option<u16> {
+        let mut named = block.auxiliary.iter().filter(|function| concerns_spindle(function));
+        let is_unknown = |number: &u16| *number != 0 && self.own.spindle(*number).is_none();
+        let unknown = named.find_map(|function| function.extension.filter(is_unknown));
+        unknown.filter(|_| !self.own.spindles.is_empty())
     }
 
     fn programmed_stop(&self, function: &AuxiliaryFunction) -> ProgrammedStop {
@@ -83,6 +133,61 @@ impl Preparing<'_> {
         } else {
             self.own.output_time(AuxiliaryKind::M)
         }
+    }
+}
+
+impl State {
+    /// What the PLC has seen is acknowledged, and its spindle functions act; what was shown for one scan is taken back. Returns whether something
+    /// was.
+    pub(super) fn acknowledge(
+        &mut self,
+        channel: ChannelNumber,
+        parameters: (&ProgramParameters, &Parameters),
+        changes: &Changes,
+    ) -> bool {
+        let output = &mut self.programs[channel].output;
+        let of_spindles = |package: &Package| package.iter().any(|entry| entry.is_of_spindle);
+        let package = output.acknowledge(self.log.cycle, changes.seen).filter(of_spindles);
+        let was_shown = output.was_shown(changes.scanned);
+        if !was_shown && package.is_none() {
+            return false;
+        }
+        let before = output.cause;
+        let event = self.log.note_plain(Place::Channel(channel), Rule::AuxiliaryAcknowledged, before);
+        if was_shown {
+            self.programs[channel].output.take_back(event);
+        }
+        if let Some(package) = package {
+            self.take_spindle_functions(&package, parameters, event);
+        }
+        was_shown
+    }
+}
+
+/// A function at its place in the interface.
+pub(super) fn entry(function: &AuxiliaryFunction, place: u8, own: &ProgramParameters) -> Entry {
+    let concerns = concerns_spindle(function);
+    // An omitted extension is the master spindle, if the channel has one.
+    let omitted = if concerns { own.master_spindle.into() } else { 0 };
+    let extension = function.extension.unwrap_or(omitted);
+    let master = own.master_spindle.max(u8::from(own.spindles.is_empty()));
+    Entry {
+        kind: function.kind,
+        place,
+        extension,
+        value: function.value,
+        is_quick: function.is_quick,
+        is_decoded: extension == 0 || concerns && extension == u16::from(master),
+        is_of_spindle: concerns && own.spindle(extension).is_some(),
+    }
+}
+
+/// Whether it is an S function, or an M function of a spindle.
+fn concerns_spindle(function: &AuxiliaryFunction) -> bool {
+    match function.kind {
+        AuxiliaryKind::S => true,
+        AuxiliaryKind::M => SPINDLE_FUNCTIONS.iter().any(|number| is_number(function, *number)),
+        AuxiliaryKind::T | AuxiliaryKind::D | AuxiliaryKind::SumOffset | AuxiliaryKind::H | AuxiliaryKind::F => false,
     }
 }
 

@@ -45,7 +45,13 @@ impl State {
         let stopped = state != ProgramState::Running && state != ProgramState::Waiting;
         let is_left = run.change == Some(Change::Level);
         let stops = stopped || run.stopping.is_some() || run.resetting.is_some() || is_left;
-        let held = if stops { Held::Stopped } else { self.holder(run, stage) };
+        let awaited = if run.awaits_spindles { self.awaited_spindle(stage) } else { None };
+        run.awaits_spindles = awaited.is_some();
+        let held = match awaited {
+            _ if stops => Held::Stopped,
+            Some((rule, input)) => Held::By(rule, input),
+            None => self.holder(run, stage),
+        };
         let ended = self.step_path(run, held, stage);
         self.step_positionings(run, held, stage);
         ended
@@ -57,6 +63,9 @@ impl State {
         if signals.feed_disable() {
             let input = channel_signal(stage.channel, channel_to_nck::feed_disable, true);
             return Held::By(Rule::HeldByFeedStop, input);
+        }
+        if let Some(held) = self.spindle_stands(run, stage) {
+            return Held::By(held.0, held.1);
         }
         let path = run.returning.as_ref().unwrap_or(&run.path);
         let direction = path.direction();
@@ -90,7 +99,7 @@ impl State {
         self.units.iter().find(|unit| unit.leader() == axis).copied()
     }
 
-    fn overrides(run: &Run, held: Held, stage: &Stage<'_>) -> Overrides {
+    fn overrides(&self, run: &Run, held: Held, stage: &Stage<'_>) -> Overrides {
         if held != Held::No || run.deleting || run.change.is_some() {
             return Overrides { feed: 0.0, rapid: 0.0 };
         }
@@ -101,14 +110,14 @@ impl State {
         }
         let of = &stage.parameters.path_overrides;
         Overrides {
-            feed: of.feed(signals.feed_override(), signals.feed_override_active()),
+            feed: of.feed(signals.feed_override(), signals.feed_override_active()) * self.revolutions(run, stage),
             rapid: of.rapid(signals.rapid_traverse_override(), signals.rapid_traverse_override_active()),
         }
     }
 
     fn step_path(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) -> usize {
         let cycle = stage.parameters.cycle.seconds();
-        let overrides = Self::overrides(run, held, stage);
+        let overrides = self.overrides(run, held, stage);
         let is_off = self.is_off(run, stage);
         if is_off && held == Held::No && run.returning.is_none() {
             run.returning = self.way_back(run, stage);

@@ -28,9 +28,9 @@ const AHEAD: usize = 80;
 const CALCULATIONS: usize = 100;
 
 /// A function of the control that OpenNCK does not have.
-const NOT_ACTIVE: AlarmNumber = AlarmNumber(12553);
+pub(super) const NOT_ACTIVE: AlarmNumber = AlarmNumber(12553);
 /// A spindle that the channel does not have.
-const NO_SPINDLE: AlarmNumber = AlarmNumber(16100);
+pub(super) const NO_SPINDLE: AlarmNumber = AlarmNumber(16100);
 
 /// What the preparation of a block reads.
 pub(in crate::sinumerik) struct Preparing<'a> {
@@ -192,6 +192,7 @@ impl Executable {
             way: None,
             criterion: Criterion::Fine,
             dwell: 0,
+            dwell_turns: None,
             positions: Vec::new(),
             references: Vec::new(),
             actions: Vec::new(),
@@ -221,8 +222,11 @@ impl Preparing<'_> {
             3 => Criterion::Interpolation,
             _ => Criterion::Fine,
         };
-        if block.modal.index(15) == 3 && !block.axes.is_empty() {
-            return Err(alarm(block, NOT_ACTIVE, Parameter::Text(short_text("G95"))));
+        if geometry::is_per_revolution(block) && !block.axes.is_empty() {
+            self.known_spindle(block, 0)?;
+        }
+        if let Some(number) = self.unknown_spindle(block) {
+            return Err(alarm(block, NO_SPINDLE, Parameter::Text(short_text(&number.to_string()))));
         }
         self.take_actions(block, run, end, &mut done, channel)?;
         let start = *end;
@@ -244,6 +248,9 @@ impl Preparing<'_> {
         if let Some(way) = &way {
             self.check_limits(block, way, &start, end)?;
         }
+        for function in &block.auxiliary {
+            run.note_spindle_function(function, self.own);
+        }
         self.take_outputs(block, way.is_some_and(|way| way.length() >= 0.5), &mut done);
         let exact_stop = geometry::is_exact_stop(block) || !done.outputs[2].is_empty();
         if let Some(way) = way.filter(|way| way.length() >= 0.5) {
@@ -255,7 +262,9 @@ impl Preparing<'_> {
     }
 
     fn feed(&self, block: &Block, path_override: f64) -> Feed {
-        let feed = block.feed.map(|feed| geometry::feed(feed, block, self.parameters.is_inch));
+        // The feed of one revolution in a second.
+        let per_minute = if geometry::is_per_revolution(block) { 60.0 } else { 1.0 };
+        let feed = block.feed.map(|feed| geometry::feed(feed * per_minute, block, self.parameters.is_inch));
         match feed {
             Some(feed) if !geometry::is_rapid(block) => Feed::Programmed(feed * path_override),
             Some(_) | None => Feed::Rapid,
@@ -271,7 +280,7 @@ impl Preparing<'_> {
         found.ok_or_else(|| alarm(block, alarms::WRONG_AXIS_TYPE, self.name(name)))
     }
 
-    fn name(&self, name: AxisIndex) -> Parameter {
+    pub(super) fn name(&self, name: AxisIndex) -> Parameter {
         Parameter::Text(short_text(self.own.axes.names.name(name)))
     }
 
@@ -377,8 +386,11 @@ impl Preparing<'_> {
                     return Err(self.coupling(block, *is_on, *following, *leading));
                 }
                 Action::Limit { is_upper, axes, spindles } => {
+                    for (spindle, _) in spindles {
+                        self.known_spindle(block, spindle.unwrap_or(0))?;
+                    }
                     if !spindles.is_empty() {
-                        return Err(alarm(block, NO_SPINDLE, Parameter::Text(short_text("1"))));
+                        done.actions.push(action.clone());
                     }
                     for (name, value) in axes {
                         let (axis, _) = self.path_axis(block, *name)?;
@@ -396,8 +408,19 @@ impl Preparing<'_> {
                     }
                     done.actions.push(action.clone());
                 }
-                Action::DwellRevolutions { .. } | Action::SpindlePosition { .. } | Action::WaitForSpindle(_) => {
-                    return Err(alarm(block, NO_SPINDLE, Parameter::Text(short_text("1"))));
+                Action::DwellRevolutions { spindle, revolutions } => {
+                    let axis = self.known_spindle(block, spindle.unwrap_or(0))?;
+                    done.dwell_turns = Some((axis, revolutions * 360.0 * Position::PER_USER_UNIT));
+                }
+                Action::SpindlePosition { spindle, .. } => {
+                    self.known_spindle(block, spindle.unwrap_or(0))?;
+                    done.actions.push(action.clone());
+                }
+                Action::WaitForSpindle(spindles) => {
+                    for spindle in spindles.iter().copied().chain(spindles.is_empty().then_some(0)) {
+                        self.known_spindle(block, spindle)?;
+                    }
+                    done.actions.push(action.clone());
                 }
                 Action::Acceleration(name, _) => {
                     self.path_axis(block, *name)?;
@@ -454,38 +477,15 @@ impl Preparing<'_> {
             channel.written.push((target, Value::Real(value)));
         }
     }
-
-    /// The gantry chapter forbids couplings with synchronous axes; others are not modelled.
-    fn coupling(&self, block: &Block, is_on: bool, following: AxisIndex, leading: Option<AxisIndex>) -> BlockAlarm {
-        let machine_axis = |name: AxisIndex| self.own.axes.machine_axes.get(usize::from(name.0)).copied();
-        let follows = |name: AxisIndex| machine_axis(name).filter(|axis| self.parameters.axes[*axis].gantry_follower);
-        if !is_on {
-            return alarm(block, alarms::NO_COUPLING, Parameter::None);
-        }
-        if let Some(axis) = follows(following) {
-            let groupings = &self.parameters.groupings.groupings;
-            let of_axis = groupings.iter().find(|grouping| grouping.coupling.members().any(|member| member == axis));
-            let leader = of_axis.map_or(Parameter::None, |grouping| Parameter::Axis(grouping.coupling.leader()));
-            let parameters = [block_parameter(block), self.name(following), leader];
-            return BlockAlarm { number: alarms::FOLLOWS_ALREADY, parameters, block: block_name(&block.origin.name) };
-        }
-        if machine_axis(following).is_none() {
-            return alarm(block, alarms::FOLLOWING_AXIS_MISSING, self.name(following));
-        }
-        if let Some(leading) = leading.filter(|name| follows(*name).is_some()) {
-            return alarm(block, alarms::WRONG_AXIS_TYPE, self.name(leading));
-        }
-        alarm(block, NOT_ACTIVE, Parameter::Text(short_text(block.origin.text.trim())))
-    }
 }
 
 /// `%2`: the block.
-fn block_parameter(block: &Block) -> Parameter {
+pub(super) fn block_parameter(block: &Block) -> Parameter {
     Parameter::Text(short_text(&block.origin.name))
 }
 
 /// An alarm with `%2` the block and `%3` what is wrong.
-fn alarm(block: &Block, number: AlarmNumber, third: Parameter) -> BlockAlarm {
+pub(super) fn alarm(block: &Block, number: AlarmNumber, third: Parameter) -> BlockAlarm {
     let parameters = [block_parameter(block), third, Parameter::None];
     BlockAlarm { number, parameters, block: block_name(&block.origin.name) }
 }

@@ -67,6 +67,7 @@ impl State {
             ProgramState::Stopped | ProgramState::Interrupted => {
                 if program.run.as_ref().is_some_and(|run| run.is_mda == (mode == Mode::Mda)) {
                     self.go_on(channel, pressed);
+                    self.release_spindles(channel, parameters, self.programs[channel].cause);
                 }
             }
             ProgramState::Aborted => {
@@ -75,6 +76,7 @@ impl State {
                     Some(path) => {
                         let event = self.note_start(channel, mode, parameters, pressed);
                         self.begin_program((channel, mode), &path, own, (parameters, to_nck), event);
+                        self.release_spindles(channel, parameters, self.programs[channel].cause);
                     }
                     None if mode == Mode::Mda => {}
                     None => {
@@ -163,6 +165,10 @@ impl State {
             numbers: 0,
             axis_feeds: Vec::new(),
             positionings: Vec::new(),
+            awaits_spindles: false,
+            prepared_spindles: Vec::new(),
+            spindle_limits: Vec::new(),
+            dwell_turns: None,
             dwell: 0,
             block_cause: event,
             block_cycle: self.log.cycle,

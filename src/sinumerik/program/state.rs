@@ -230,6 +230,7 @@ pub(in crate::sinumerik) struct Executable {
     pub criterion: Criterion,
     /// G4 in cycles.
     pub dwell: u64,
+    pub dwell_turns: Option<(AxisNumber, f64)>,
     /// POS and POSA.
     pub positions: Vec<Positioning>,
     /// G74.
@@ -285,6 +286,7 @@ impl Executable {
         self.way.is_some()
             && self.outputs[0].is_empty()
             && self.dwell == 0
+            && self.dwell_turns.is_none()
             && self.positions.is_empty()
             && self.references.is_empty()
             && self.actions.is_empty()
@@ -378,6 +380,12 @@ pub(in crate::sinumerik) struct Run {
     pub axis_feeds: Vec<(AxisNumber, f64)>,
     /// POS and POSA that move.
     pub positionings: Vec<Positioning>,
+    /// The path of a block with a feed has not begun: it waits for the speed of the spindles.
+    pub awaits_spindles: bool,
+    /// The speeds and directions that prepared blocks have given to spindles: their numbers, rev/min, and 3, 4 or 5.
+    pub prepared_spindles: Vec<(u16, f64, i32)>,
+    pub spindle_limits: Vec<(bool, AxisNumber, f64)>,
+    pub dwell_turns: Option<(AxisNumber, f64)>,
     /// Cycles left of G4.
     pub dwell: u64,
     /// The event with which the block that runs began.

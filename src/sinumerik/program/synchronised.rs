@@ -4,13 +4,15 @@
 //! them before the path moves, in the order in which they began. A POS moves its axis beside the path, as POSA (P-69).
 
 use crate::nc_program::{
-    AuxiliaryKind, Dimension, Environment, Frequency, MainRunAction, SynchronisedAction, SystemVariable, Value,
+    AuxiliaryFunction, AuxiliaryKind, Dimension, Environment, Frequency, MainRunAction, SynchronisedAction,
+    SystemVariable, Value,
 };
 use crate::sinumerik::alarms::programs as alarms;
-use crate::sinumerik::program::auxiliary::{Entry, Package};
+use crate::sinumerik::program::auxiliary::Package;
 use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::execution::Sources;
 use crate::sinumerik::program::geometry;
+use crate::sinumerik::program::outputs::entry;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::state::{ActiveAction, Run};
@@ -69,6 +71,8 @@ impl State {
             channel,
             parameters: stage.own,
             axes: &self.axes,
+            spindles: &self.spindles,
+            prepared_spindles: Vec::new(),
             owners: &self.owners,
             single: &self.single,
             all: stage.parameters,
@@ -115,7 +119,9 @@ impl State {
             }
             Effect::Output { kind, extension, value } => {
                 let mut package = Package::new();
-                package.push(Entry { kind, place: 0, extension, value, is_quick: false });
+                let extension = Some(extension).filter(|extension| *extension != 0);
+                let function = AuxiliaryFunction { kind, extension, axis: None, value, is_quick: false };
+                package.push(entry(&function, 0, stage.own));
                 // The program does not wait for it.
                 self.programs[channel].output.add(&package, run.block_cause, true);
             }

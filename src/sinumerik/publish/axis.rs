@@ -27,7 +27,7 @@ impl State {
     ) {
         let axis = &self.axes[number];
         let (causes, set) = (&axis.causes, axis.active_set(parameters));
-        let [_, _, position] = axis.enabling.controllers();
+        let position = axis.is_position_controlled();
         let at_rest = position && !axis.is_in_motion();
         let within = |window: Position| at_rest && axis.deviation().abs() <= window;
         let exact_stop = |limit: StopLimit| {
@@ -79,7 +79,8 @@ impl State {
         rows.bit(axis_from_nck::referenced_synchronized_2, axis.referenced[1], || Why::Event(causes.reference[1]));
         rows.bit(axis_from_nck::position_restored_1, axis.restored[0], || Why::Event(causes.restored[0]));
         rows.bit(axis_from_nck::position_restored_2, axis.restored[1], || Why::Event(causes.restored[1]));
-        let [current, speed, position] = axis.enabling.controllers();
+        let [current, speed, _] = axis.enabling.controllers();
+        let position = axis.is_position_controlled();
         let place = Place::Axis(number);
         let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(place));
         let why_alarm = || self.why_alarm(|at, alarm| at == place && alarm.reaction.has(Reaction::INTERFACE_SIGNALS));
@@ -105,7 +106,11 @@ impl State {
             None => measuring_system(),
             Some(_) => self.of_this_cycle([causes.follow_up, causes.measuring_system]).unwrap_or_else(enabling),
         });
-        rows.bit(axis_from_nck::position_controller_active, position, enabling);
+        let spindle = self.spindles[number].as_deref();
+        let spindle_mode = spindle.map_or(EventId::NONE, |spindle| spindle.cause.max(spindle.mode_cause));
+        rows.bit(axis_from_nck::position_controller_active, position, || {
+            self.of_this_cycle([causes.enabling, spindle_mode]).unwrap_or_else(enabling)
+        });
         rows.bit(axis_from_nck::speed_controller_active, speed, enabling);
         rows.bit(axis_from_nck::current_controller_active, current, enabling);
         let jogging = &axis.jogging;

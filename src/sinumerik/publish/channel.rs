@@ -45,6 +45,8 @@ impl State {
         rows.bit(channel_from_nck::last_action_block_active, search.is_some_and(Search::is_last_action), by_search);
         rows.bit(channel_from_nck::block_search_active, search.is_some_and(Search::is_searching), by_search);
         rows.bit(channel_from_nck::program_test_active, program.test.is_active, || Why::Event(program.test.cause));
+        let per_revolution = program.modal.index(15) == 3;
+        rows.bit(channel_from_nck::revolutional_feedrate_active, per_revolution, || Why::Event(program.modal_cause));
         rows.bit(channel_from_nck::m2_m30_active, program.ended, by_program);
         for (signal, state) in [
             (channel_from_nck::program_state_running, ProgramState::Running),
@@ -116,6 +118,9 @@ impl State {
             Some(event) => event,
             None => Why::Tested(rule, [audible(first), audible(second), Input::None], parent),
         };
+        if let Some(opened) = self.opened_loop(number) {
+            return opened;
+        }
         if !active {
             let [plus, minus] = [1, -1].map(|sign| axis_signal(number, command_signal(sign), false));
             return tested(Rule::ChannelAtRest, plus, minus, axis.causes.motion);
@@ -147,6 +152,9 @@ impl State {
             // An axis that moves or stands has come or gone.
             return Why::Event(self.exchange_of_this_cycle());
         };
+        if let Some(opened) = self.opened_loop(number) {
+            return opened;
+        }
         let rule = if standing { Rule::AllStationary } else { Rule::NotAllStationary };
         let input = if parameters.axes[number].silent {
             Input::None

@@ -36,16 +36,19 @@ pub(in crate::sinumerik) fn has_row(signal: &Signal) -> bool {
     all.iter().any(|&(block, byte, mask)| (block, byte) == (signal.block, signal.byte) && mask >> signal.bit & 1 == 1)
 }
 
-/// The rows of a machine with a gantry grouping: each kind of block occurs in it.
+/// The rows of a machine with a gantry grouping and a spindle: each kind of block occurs in it.
 fn collect() -> Vec<Bits> {
     let mut data = MachineData::default();
     let mut presence = PerAxis::<AxisPresence>::default();
     // The fourth axis follows: the first three are geometry axes.
-    let pair = [(0, 1), (3, 11)].map(|(index, code)| (AxisNumber::all().nth(index).unwrap_or(AxisNumber::FIRST), code));
-    for (axis, code) in pair {
+    let axis = |index| AxisNumber::all().nth(index).unwrap_or(AxisNumber::FIRST);
+    let kinds = [(0, 1), (3, 11), (4, 0)].map(|(index, code)| (axis(index), code));
+    for (axis, code) in kinds {
         data.axes[axis].gantry_axis_type = code;
         presence[axis].exists = true;
     }
+    let spindle = &mut data.axes[axis(4)];
+    (spindle.spind_assign_to_machax, spindle.is_rot_ax, spindle.rot_is_modulo) = (1, true, true);
     let parameters = Parameters::new(&data, &presence);
     let state = State::new(&parameters);
     let mut bits = Vec::new();
@@ -60,12 +63,13 @@ fn collect() -> Vec<Bits> {
         state.show_auxiliary(ChannelNumber::FIRST, &parameters, rows);
         state.show_search(ChannelNumber::FIRST, rows);
     });
-    for (axis, _) in pair {
+    for (axis, _) in kinds {
         of(Block::Axis, &|rows| {
             let own = &parameters.axes[axis];
             state.show_axis(axis, &parameters, rows);
             state.show_movement(axis, own, &parameters, rows);
             state.show_gantry_axis(axis, rows);
+            state.show_spindle(axis, &parameters, rows);
         });
     }
     bits

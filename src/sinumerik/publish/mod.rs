@@ -16,6 +16,7 @@ pub(super) mod known;
 mod program;
 mod rows;
 mod single_axis;
+mod spindle;
 
 use zerocopy::IntoBytes;
 
@@ -68,6 +69,7 @@ impl Nck {
                 let mut rows = Written::new(bytes, AxisFromNck::FIRST);
                 if decided.contains(number) {
                     state.show_axis(number, parameters, &mut rows);
+                    state.show_spindle(number, parameters, &mut rows);
                 }
                 state.show_movement(number, axis, parameters, &mut rows);
             }
@@ -106,6 +108,7 @@ impl Nck {
             Place::Axis(axis) => {
                 state.show_axis(axis, parameters, &mut asked);
                 state.show_movement(axis, &parameters.axes[axis], parameters, &mut asked);
+                state.show_spindle(axis, parameters, &mut asked);
                 state.show_gantry_axis(axis, &mut asked);
             }
         }
