@@ -285,16 +285,16 @@ fn dry_run_and_skip_levels_change_at_once_or_at_stopre() {
     assert_eq!(at_once.value("count(Y.setpoint == 5)").unwrap_or(0.0), 0.0);
     let mut at_stop = session(2.0, "G1 X10 F1000\n/9 Y5\nSTOPRE\n/9 Y10\nZ20\nM30");
     at_stop.expect("abs(X.velocity - 1000) < 20").unwrap();
-    at_stop.wait("Z.setpoint > 5", "10s").unwrap();
+    at_stop.wait("Z.setpoint > 12", "10s").unwrap();
     // The first skip block was read before STOPRE, the second one behind it.
     assert_eq!(position(&at_stop)[1], 5.0);
-    at_stop.expect("abs(Z.velocity - 5000) < 20").unwrap();
+    at_stop.expect("abs(Z.velocity - 5000) < 150").unwrap();
     let mut at_the_end = session(0.0, "G64 G1 X10 F1000\n/9 X12\nZ20\nM30");
     at_the_end.expect("abs(X.velocity - 1000) < 20").unwrap();
-    at_the_end.wait("Z.setpoint > 5", "10s").unwrap();
+    at_the_end.wait("Z.setpoint > 12", "10s").unwrap();
     // The skip level would need a stop, the dry run only the end of a block.
     assert_eq!(position(&at_the_end)[0], 12.0);
-    at_the_end.expect("abs(Z.velocity - 5000) < 20").unwrap();
+    at_the_end.expect("abs(Z.velocity - 5000) < 150").unwrap();
 }
 
 /// MD20700 = 1 and 2: NC start needs the reference points of the channel; 0: it does not.
