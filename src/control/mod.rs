@@ -19,6 +19,7 @@
 mod conditions;
 mod data;
 mod finding;
+mod generator;
 mod log;
 mod opening;
 mod transitions;
@@ -27,6 +28,7 @@ mod value;
 pub use conditions::{Condition, Fact, Question};
 pub use data::{Data, Datum, Owner};
 pub use finding::{Class, Finding, summary};
+pub use generator::FunctionGenerator;
 pub use log::Log;
 pub use opening::{AxisHints, Configuration, EncoderModel, Examined, Opened, Read, Settings, Site, StoredDatum};
 pub use transitions::{CHARTS, Chart, Edge, Rows, Taken, Transition, next, row};
@@ -110,6 +112,8 @@ pub enum ControlCommand {
         /// How.
         kind: SearchKind,
     },
+    /// Gives the function generator a signal for an axis. NC start in JOG begins it.
+    FunctionGenerator(FunctionGenerator),
     /// The operator's alarm-cancel key.
     Cancel,
     /// A handwheel is turned.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Fault;
+use crate::control::FunctionGenerator;
 use crate::control::SearchKind;
 use crate::control::Value;
 use crate::image::Location;
@@ -76,6 +77,8 @@ pub enum Command {
         /// How.
         kind: SearchKind,
     },
+    /// Gives the function generator a signal for an axis. NC start in JOG begins it.
+    FunctionGenerator(FunctionGenerator),
     /// "Set machine data active".
     NewConf,
     /// Power off and on.
@@ -116,6 +119,7 @@ impl Command {
             | Self::EnterBlocks { .. }
             | Self::Preset { .. }
             | Self::Search { .. }
+            | Self::FunctionGenerator(_)
             | Self::NewConf
             | Self::PowerOn
             | Self::PlcStop
@@ -144,6 +148,7 @@ impl Command {
             | Self::EnterBlocks { .. }
             | Self::Preset { .. }
             | Self::Search { .. }
+            | Self::FunctionGenerator(_)
             | Self::NewConf
             | Self::PowerOn
             | Self::Cancel

@@ -31,8 +31,10 @@ mod state;
 mod step;
 mod written;
 
+pub use crate::control::FunctionGenerator;
 pub use crate::control::SearchKind;
 pub use crate::control::Value as DatumValue;
+pub use crate::motion::Waveform;
 pub use crate::plant::{Fault, FaultKind, Switch};
 pub use command::{Command, PlcOrder};
 pub use conditions::{Subject, Tested};

@@ -147,6 +147,7 @@ impl Machine {
             | Command::EnterBlocks { .. }
             | Command::Preset { .. }
             | Command::Search { .. }
+            | Command::FunctionGenerator(_)
             | Command::NewConf
             | Command::Cancel
             | Command::Handwheel { .. } => {}
@@ -183,6 +184,7 @@ impl Machine {
             | ControlCommand::RParameter { .. }
             | ControlCommand::Preset { .. }
             | ControlCommand::Search { .. }
+            | ControlCommand::FunctionGenerator(_)
             | ControlCommand::Written(_)
             | ControlCommand::Fault { .. } => {}
         }
@@ -289,6 +291,7 @@ fn of_the_control(command: &Command) -> Option<ControlCommand> {
         Command::Search { channel, block, kind } => {
             Some(ControlCommand::Search { channel: *channel, block: block.clone(), kind: *kind })
         }
+        &Command::FunctionGenerator(one) => Some(ControlCommand::FunctionGenerator(one)),
         Command::NewConf => Some(ControlCommand::Activate),
         Command::Cancel => Some(ControlCommand::Cancel),
         &Command::Handwheel { number, pulses, cycles } => Some(ControlCommand::Handwheel { number, pulses, cycles }),

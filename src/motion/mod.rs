@@ -13,6 +13,7 @@ mod jerk;
 pub mod path;
 mod profile;
 mod servo;
+mod waveform;
 
 pub use command::Motion;
 pub use delay::{DeadTime, Pt1};
@@ -21,6 +22,7 @@ pub use feedback::{Brake, Feedback};
 pub use jerk::{JerkFilter, LONGEST_WINDOW};
 pub use profile::{Limits, Movement, Setpoint};
 pub use servo::{Drive, velocity_command};
+pub use waveform::Waveform;
 
 /// The farthest position of an axis, in increments. It is beyond every position that machine data can express, and small enough for sums,
 /// differences and fine interpolation of positions.

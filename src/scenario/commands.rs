@@ -4,12 +4,13 @@ use std::path::Path;
 
 use super::duration::Duration;
 use super::failure::Failure;
+use super::generators::{time_of, waveform, waveforms};
 use super::naming::axis_named;
 use super::programs::NcPrograms;
 use super::searches::{search_kind, search_kinds};
 use super::session::Session;
 use super::values::Setting;
-use crate::machine::{Command, DatumValue, Fault, FaultKind};
+use crate::machine::{Command, DatumValue, Fault, FaultKind, FunctionGenerator};
 use crate::source::{Place, Problem};
 use crate::units::ChannelNumber;
 use crate::variables::r_parameter;
@@ -85,6 +86,36 @@ impl Session {
     pub fn preset(&mut self, axis: &str, value: f64) -> Result<(), Failure> {
         let axis = axis_named(&self.machine, axis)?;
         self.queue(Command::Preset { axis, value })
+    }
+
+    /// Gives the function generator a signal (`sine`, `square` or `triangle`) for an axis; NC start in JOG begins it. The amplitudes are those of
+    /// the axis and of the axes coupled with it, in millimetres or degrees like the offset; the frequency is in hertz.
+    ///
+    /// # Errors
+    /// The axis or the signal does not exist, the text is not a duration, or a value is out of range.
+    pub fn function_generator(
+        &mut self,
+        axis: &str,
+        signal: &str,
+        amplitude: [f64; 2],
+        offset: f64,
+        frequency: f64,
+        duration: &str,
+    ) -> Result<(), Failure> {
+        let axis = axis_named(&self.machine, axis)?;
+        let Some(signal) = waveform(signal) else {
+            let found = format!("expected a signal of the function generator, found {signal:?}");
+            return Err(Problem::new(found, waveforms()).into());
+        };
+        let duration = time_of(Duration::parse(duration)?, &self.machine);
+        self.queue(Command::FunctionGenerator(FunctionGenerator {
+            axis,
+            signal,
+            amplitude,
+            offset,
+            frequency,
+            duration,
+        }))
     }
 
     /// Searches a block of the selected program: `N50`, `:50` or a label. The kind is `contour`, `end_point`, `serupro` or `without_calculation`.

@@ -12,6 +12,7 @@ mod failure;
 mod faults;
 mod fields;
 mod file;
+mod generators;
 mod include;
 mod matrix;
 mod naming;

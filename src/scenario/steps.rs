@@ -92,7 +92,7 @@ impl Turn {
 }
 
 /// The verbs of a step; `include` is another one.
-const VERBS: [&str; 25] = [
+const VERBS: [&str; 26] = [
     "set",
     "write",
     "force",
@@ -110,6 +110,7 @@ const VERBS: [&str; 25] = [
     "mdi",
     "preset",
     "search",
+    "function_generator",
     "new_conf",
     "power_on",
     "plc",
@@ -317,6 +318,7 @@ impl<'a> Reader<'a> {
                 command(Command::EnterBlocks { channel: channel(table)?, text })
             }
             "preset" => Action::Queue(self.presets(node)?),
+            "function_generator" => command(self.generator(node)?),
             "search" => {
                 let (block, kind) = search(node)?;
                 command(Command::Search { channel: channel(table)?, block, kind })

@@ -57,6 +57,7 @@ impl Control for Nck {
                 self.check_channel(*channel)
             }
             &ControlCommand::Preset { axis, value } => self.check_preset(axis, value),
+            ControlCommand::FunctionGenerator(wanted) => self.check_generator(wanted),
             ControlCommand::Handwheel { .. }
             | ControlCommand::Activate
             | ControlCommand::Cancel
@@ -85,6 +86,7 @@ impl Control for Nck {
             ControlCommand::SelectProgram { channel, path } => return self.select_program(*channel, path),
             ControlCommand::EnterBlocks { channel, text } => return self.enter_blocks(*channel, text),
             &ControlCommand::Preset { axis, value } => return self.preset(axis, value),
+            &ControlCommand::FunctionGenerator(wanted) => return self.parameterise_generator(wanted),
             ControlCommand::Search { channel, block, kind } => return self.search(*channel, block, *kind),
             ControlCommand::Activate => return self.new_conf(),
             ControlCommand::Cancel => return self.press_cancel_key(),

@@ -19,6 +19,7 @@ mod boundary;
 mod commissioning;
 mod compensation;
 mod exchange;
+mod function_generator;
 mod gantry;
 mod inputs;
 mod jog;

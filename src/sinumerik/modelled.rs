@@ -74,6 +74,7 @@ const READ: &[Signal] = &[
     channel_program_to_nck::skip_block_level_9,
     channel_jump_to_nck::enable_gotos,
     axis_to_nck::feed_override,
+    axis_to_nck::drive_test_travel_enable,
     axis_to_nck::axis_spindle_disable,
     axis_to_nck::follow_up_mode,
     axis_to_nck::position_measuring_system_1,

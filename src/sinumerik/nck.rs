@@ -387,6 +387,7 @@ impl Nck {
         }
         state.order_channel_referencing(parameters, to_nck);
         self.store_encoder_data();
+        self.generate_signals(to_nck);
         self.overlay(to_nck);
         self.compensate();
     }

@@ -91,6 +91,14 @@ rules! {
     ResetDone "RESET" "RESET";
     StartRefused "10203" "NC start without reference point";
     Preset "SYN-10" "another actual value was set: the reference is lost";
+    GeneratorSet "MIS-09" "the function generator has a signal for the axis";
+    GeneratorSynchronous "MIS-09" "NC start in JOG: a synchronous axis has no function generator";
+    GeneratorRefused "MIS-09" "NC start in JOG: the function generator cannot move the axis";
+    GeneratorStarted "MIS-09" "NC start in JOG: the function generator asks for travel";
+    GeneratorMoves "MIS-09" "the PLC allows the travel of the function generator";
+    GeneratorStops "MIS-09" "the function generator stops";
+    GeneratorOver "MIS-09" "the time of the function generator is over";
+    GeneratorRests "MIS-09" "the function generator has ended, its signal is 0";
     PresetByOperator "SYN-10" "PRESET by the operator";
     // Programs.
     StartHinderedByAlarm "16919" "NC start while an alarm with NC start disabled is pending";

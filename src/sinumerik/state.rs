@@ -11,6 +11,7 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::exchange::state::Owners;
+use crate::sinumerik::function_generator::state::Generator;
 use crate::sinumerik::gantry::state::{Declared, Grouping, Phase};
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
@@ -124,6 +125,8 @@ pub(super) struct State {
     pub programs: PerChannel<ChannelProgram>,
     /// They outlast power off.
     pub r_parameters: RParameters,
+    /// The signals of the function generator.
+    pub generators: Vec<Generator>,
     /// Where programs want axes in this cycle; empty between cycles.
     pub led: PerAxis<Option<Led>>,
     /// The axes with a compensation value.
@@ -163,6 +166,7 @@ impl State {
             single: SingleAxes::default(),
             programs: PerChannel::from_fn(|channel| ChannelProgram::new(parameters.programs[channel].as_deref())),
             r_parameters: parameters.r_parameters(),
+            generators: Vec::new(),
             led: PerAxis::default(),
             compensating: AxisSet::NONE,
             overwritten: true,

@@ -11,7 +11,7 @@ const REST_OF_QUARTER: f64 = FRAC_PI_2 - QUARTER + 6.123_233_995_736_766e-17;
 
 /// Sine and cosine of an angle in radians, of up to a million turns.
 #[must_use]
-pub(super) fn sin_cos(angle: f64) -> (f64, f64) {
+pub(in crate::motion) fn sin_cos(angle: f64) -> (f64, f64) {
     // The nearest multiple of a quarter turn; what remains is at most an eighth.
     let quarters = (angle / FRAC_PI_2).round();
     let rest = angle - quarters * QUARTER - quarters * REST_OF_QUARTER;

@@ -13,7 +13,7 @@
 //!
 //! Positions are computed from the start of a block, never added up, so that nothing is lost and every block ends exactly on its end.
 
-mod angle;
+pub(super) mod angle;
 mod axes;
 mod block;
 mod soft;

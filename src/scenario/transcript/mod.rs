@@ -7,6 +7,7 @@
 
 use std::fmt::Write;
 
+use super::generators::generator_text;
 use super::naming::missing_owner;
 use super::searches::search_word;
 use crate::image::{Address, Format, Location, Profile, Writer, is_no_code};
@@ -187,6 +188,10 @@ impl Transcript {
             Command::Preset { axis, value } => {
                 let name = machine.names().axes[*axis].as_deref().unwrap_or_default();
                 self.put("preset", quoted(name), format!("{value:?}"));
+            }
+            Command::FunctionGenerator(wanted) => {
+                let text = generator_text(wanted, machine);
+                self.step("function_generator", &text);
             }
             Command::Search { channel, block, kind } => {
                 let kind = search_word(*kind);

@@ -410,11 +410,23 @@ alarms! {
     /// A block moves an axis that its channel does not have, and MD30552 = 0 forbids the automatic GET. The manuals give no number (O-18).
     AXIS_NOT_IN_CHANNEL 1_000_003 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart
         "channel %1 block %2 axis %3 is not a channel axis, and MD30552 = 0 forbids the automatic GET";
+    /// NC start in JOG, and the function generator has a signal for a synchronous axis (MIS-09). The manuals give no number (O-18).
+    GENERATOR_SYNCHRONOUS_AXIS 1_000_004 [INTERFACE_SIGNALS DISPLAY] CancelKey
+        "channel %1 axis %2 function generator: not possible for a synchronous axis, name its leading axis";
+    /// NC start in JOG, and the axis of the function generator moves or is not in position control. The manuals give no number (O-18).
+    GENERATOR_NOT_POSSIBLE 1_000_005 [INTERFACE_SIGNALS DISPLAY] CancelKey
+        "channel %1 axis %2 function generator: the axis moves, or cannot move";
 }
 
 /// The names of the alarms for which no source gives a number (O-18), in the order of our own numbers.
-const OWN_NAMES: &[&str] =
-    &["gantry-mixed-axis-types", "gantry-unequal-data", "alarm-list-full", "axis-not-a-channel-axis"];
+const OWN_NAMES: &[&str] = &[
+    "gantry-mixed-axis-types",
+    "gantry-unequal-data",
+    "alarm-list-full",
+    "axis-not-a-channel-axis",
+    "function-generator-synchronous-axis",
+    "function-generator-not-possible",
+];
 
 impl Alarm {
     /// The name of an alarm: its number, or our own name if no source gives a number.

@@ -8,6 +8,7 @@ use crate::sinumerik::axis::controllers::{ControllerState, Enabling};
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::compensation::state::Compensation;
+use crate::sinumerik::function_generator::state::TestTravel;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
@@ -91,6 +92,8 @@ pub(in crate::sinumerik) struct Axis {
     pub velocity: f64,
     /// The DRF offset.
     pub overlay: Overlay,
+    /// The function generator.
+    pub test_travel: TestTravel,
     /// The compensations.
     pub compensation: Compensation,
     /// Half a count of the active encoder.
@@ -155,6 +158,7 @@ impl Default for Axis {
             zero_mark: None,
             velocity: 0.0,
             overlay: Overlay::default(),
+            test_travel: TestTravel::default(),
             compensation: Compensation::default(),
             half_count: Position::ZERO,
             slide: Position::ZERO,
@@ -196,6 +200,7 @@ impl Axis {
             && (&self.jogging, self.speed_controlled) == (&other.jogging, other.speed_controlled)
             && self.signals == other.signals
             && self.causes == other.causes
+            && self.test_travel.has_decisions_of(&other.test_travel)
             && self.approach == other.approach
     }
 
@@ -205,6 +210,7 @@ impl Axis {
             && (self.branch, self.unsettled) == (other.branch, other.unsettled)
             && self.compensation == other.compensation
             && self.overlay == other.overlay
+            && self.test_travel.offset == other.test_travel.offset
             && self.monitor == other.monitor
     }
 
@@ -213,6 +219,7 @@ impl Axis {
         (self.setpoint, self.before, self.unsettled) = (other.setpoint, other.before, other.unsettled);
         (self.branch, self.arrived, self.compensation) = (other.branch, other.arrived, other.compensation);
         self.overlay = other.overlay;
+        self.test_travel.offset = other.test_travel.offset;
         (self.actual, self.zero_mark, self.velocity) = (other.actual, other.zero_mark, other.velocity);
         (self.half_count, self.slide, self.monitor) = (other.half_count, other.slide, other.monitor);
     }
@@ -309,13 +316,19 @@ impl Axis {
     /// Whether the axis moves or is to move.
     #[must_use]
     pub(in crate::sinumerik) fn is_in_motion(&self) -> bool {
-        self.travel.is_pending() || !self.setpoint.is_at_rest() || self.overlay.command != 0
+        self.travel.is_pending() || self.is_moving()
     }
 
     /// Whether the axis moves; an axis that is held or waits for an enable does not.
     #[must_use]
     pub(in crate::sinumerik) fn is_moving(&self) -> bool {
-        self.travel.is_moving() || !self.setpoint.is_at_rest() || self.overlay.command != 0
+        self.travel.is_moving() || self.setpoint_moves()
+    }
+
+    /// Whether the setpoint moves: its own movement, the DRF offset, or the function generator.
+    #[must_use]
+    pub(in crate::sinumerik) fn setpoint_moves(&self) -> bool {
+        !self.setpoint.is_at_rest() || self.overlay.command != 0 || self.test_travel.moves
     }
 
     /// Shifts the actual value at the present position: nothing moves.

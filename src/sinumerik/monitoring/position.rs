@@ -32,7 +32,7 @@ impl State {
         }
         self.monitor_contour(number, parameters);
         let axis = &mut self.axes[number];
-        if !axis.setpoint.is_at_rest() || axis.overlay.command != 0 {
+        if axis.setpoint_moves() {
             axis.monitor.moves();
             return;
         }

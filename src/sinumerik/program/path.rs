@@ -330,7 +330,7 @@ impl State {
 
     /// The axes that programs lead or have led: they decide in each cycle.
     pub(in crate::sinumerik) fn program_axes(&self, parameters: &Parameters) -> crate::units::AxisSet {
-        let mut axes = self.single.watched;
+        let mut axes = self.single.watched.with(self.generating());
         for (channel, _) in parameters.existing_channels() {
             let program = &self.programs[channel];
             let Some(own) = parameters.programs[channel].as_deref() else { continue };

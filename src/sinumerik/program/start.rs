@@ -35,7 +35,11 @@ impl State {
         let place = Place::Channel(channel);
         let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
         let stops = signals.nc_stop() || signals.nc_stop_at_block_limit() || signals.nc_stop_axes_plus_spindles();
-        if mode == Mode::Jog || signals.nc_start_disable() || stops {
+        if signals.nc_start_disable() || stops {
+            return;
+        }
+        if mode == Mode::Jog {
+            self.start_generators(channel, parameters, pressed);
             return;
         }
         if !self.is_referenced(channel, parameters) {
@@ -92,7 +96,13 @@ impl State {
     }
 
     /// NC start has no effect: a message says why.
-    fn refuse_start(&mut self, channel: ChannelNumber, number: AlarmNumber, rule: Rule, inputs: [Input; 3]) {
+    pub(in crate::sinumerik) fn refuse_start(
+        &mut self,
+        channel: ChannelNumber,
+        number: AlarmNumber,
+        rule: Rule,
+        inputs: [Input; 3],
+    ) {
         let place = Place::Channel(channel);
         let event = self.log.note(place, rule, inputs, EventId::NONE);
         let action = Parameter::Text(short_text(NC_START));

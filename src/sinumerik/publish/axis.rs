@@ -113,6 +113,9 @@ impl State {
         });
         rows.bit(axis_from_nck::speed_controller_active, speed, enabling);
         rows.bit(axis_from_nck::current_controller_active, current, enabling);
+        rows.bit(axis_from_nck::drive_test_travel_request, axis.test_travel.requested, || {
+            Why::Event(axis.test_travel.cause)
+        });
         let jogging = &axis.jogging;
         let handwheels = jogging.handwheels | axis.overlay.handwheels;
         let handwheel = || Why::Event(jogging.handwheel_cause.max(axis.overlay.cause).max(mode()));
@@ -163,6 +166,11 @@ impl State {
         let motion = self.axes[number].causes.motion;
         if self.log.is_of_this_cycle(motion) {
             return Why::Event(motion);
+        }
+        let test_travel = &self.axes[number].test_travel;
+        if test_travel.moves {
+            let requested = axis_signal(number, axis_from_nck::drive_test_travel_request, true);
+            return Why::Tested(rule, [requested, Input::None, Input::None], test_travel.cause);
         }
         let mover = self.mover(number);
         let axis = &self.axes[mover];

@@ -44,6 +44,7 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         |look, axis| look.switched_off(axis, 0),
     ),
     Row::new(axis_from_nck::ramp_function_generator_disable_active, |look, owner| look.fast_stop(owner)),
+    Row::new(axis_from_nck::drive_test_travel_request, |look, axis| look.test_travel(axis)),
     Row::new(axis_from_nck::holding_brake_open, |look, axis| look.brake(axis)),
     Row::new(axis_from_nck::drive_ready, |look, owner| look.drive_ready(owner)),
     Row::with(
@@ -64,6 +65,13 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
 ];
 
 impl Look<'_> {
+    fn test_travel(self, axis: AxisNumber) -> Condition {
+        let requested = self.state.axes[axis].test_travel.requested;
+        let found = if requested { "started" } else { "not started" };
+        let what = format!("function generator of {}", self.axis_name(axis));
+        Fact::new(what, found, "started by NC start in JOG", requested).into()
+    }
+
     fn frequency(self, axis: AxisNumber, encoder: usize) -> Condition {
         let exceeded = self.state.axes[axis].monitor.encoders[encoder].frequency_exceeded;
         let found = if exceeded { "above" } else { "not above" };
