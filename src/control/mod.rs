@@ -19,25 +19,23 @@
 mod conditions;
 mod data;
 mod finding;
-mod generator;
 mod log;
 mod opening;
+mod operator;
 mod transitions;
 mod value;
 
 pub use conditions::{Condition, Fact, Question};
 pub use data::{Data, Datum, Owner};
 pub use finding::{Class, Finding, summary};
-pub use generator::FunctionGenerator;
 pub use log::Log;
 pub use opening::{AxisHints, Configuration, EncoderModel, Examined, Opened, Read, Settings, Site, StoredDatum};
+pub use operator::{FunctionGenerator, SearchKind};
 pub use transitions::{CHARTS, Chart, Edge, Rows, Taken, Transition, next, row};
 pub use value::{Kind, Value};
 
 use std::any::Any;
 use std::fmt::Debug;
-
-use serde::{Deserialize, Serialize};
 
 use crate::image::{Interface, Location, Names, OverrideCoding, Signal};
 use crate::motion::Feedback;
@@ -47,19 +45,6 @@ use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis,
 use crate::variables::{
     AlarmNumber, DatumValue, EventId, Events, FaultName, Place, RParameters, Rule, RuleNumber, Variables,
 };
-
-/// How a block search comes to its block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SearchKind {
-    /// Nothing before the block counts.
-    WithoutCalculation,
-    /// Everything before it is calculated; the axes go to its start.
-    Contour,
-    /// Everything before it is calculated; the axes go to its end.
-    EndPoint,
-    /// Everything before it is executed in a program test (SERUPRO).
-    ProgramTest,
-}
 
 /// A command to a control from outside, taken at the edge of a cycle.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,5 +11,6 @@ pub(super) mod position_control;
 pub(super) mod shaping;
 pub(super) mod signals;
 pub(super) mod state;
+pub(super) mod test_travel;
 pub(super) mod travel;
 pub(super) mod traversing;

@@ -11,7 +11,7 @@
 //! 1.0 = 0, and then returns to 0 in the same way. Without position control it is dropped where it is. On a software limit of the leading axis
 //! the signal stands still, for the coupled axes in the same proportion. Signals of measuring functions are those of the function generator.
 //!
-//! `state.rs` contains the signals and what an axis has of them, `start.rs` is the command and NC start, `signal.rs` the stage.
+//! `state.rs` contains the signals (what an axis has of them is in `axis/test_travel.rs`), `start.rs` is the command and NC start, `signal.rs` the stage.
 
 mod signal;
 mod start;

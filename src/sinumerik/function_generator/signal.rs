@@ -21,8 +21,13 @@ impl Nck {
         }
         let mut generators = std::mem::take(&mut state.generators);
         for generator in &mut generators {
-            if let Some(unit) = generator.unit {
-                state.generate(generator, &unit, parameters, to_nck);
+            if generator.axes.is_empty() {
+                continue;
+            }
+            let unit = state.unit_of(generator.wanted.axis).filter(|unit| unit.set == generator.axes);
+            match unit {
+                Some(unit) => state.generate(generator, &unit, parameters, to_nck),
+                None => state.drop_signal(generator),
             }
         }
         state.generators = generators;
@@ -33,7 +38,7 @@ impl Nck {
 impl State {
     /// The axes that a signal moves or is to move.
     pub(in crate::sinumerik) fn generating(&self) -> AxisSet {
-        self.generators.iter().filter_map(|one| one.unit).flat_map(|unit| unit.set.iter()).collect()
+        self.generators.iter().flat_map(|one| one.axes.iter()).collect()
     }
 
     fn generate(&mut self, generator: &mut Generator, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
@@ -57,7 +62,6 @@ impl State {
             (generator.phase, generator.cause) = (Phase::Runs(0), self.axes[unit.leader()].test_travel.cause);
         }
         let powered = |axis: AxisNumber| self.axes[axis].enabling.moves() && !self.axes[axis].signals.fast_stop;
-        let is_same = self.unit_of(unit.leader()).is_some_and(|now| now.set == unit.set);
         let shares = match &mut generator.phase {
             Phase::Runs(cycles) => {
                 *cycles += 1;
@@ -68,7 +72,7 @@ impl State {
             }
             Phase::Set | Phase::Requested | Phase::Returns => [Position::ZERO; 2],
         };
-        if !is_same || !unit.members().all(powered) {
+        if !unit.members().all(powered) {
             // Without position control the setpoint is where the axis is.
             for member in unit.members() {
                 self.axes[member].test_travel.offset = Position::ZERO;
@@ -78,13 +82,27 @@ impl State {
         }
         let returned = unit.members().all(|axis| self.axes[axis].test_travel.offset == Position::ZERO);
         if generator.phase == Phase::Returns && returned {
-            for member in unit.members() {
-                let event = self.log.note_plain(Place::Axis(member), Rule::GeneratorRests, generator.cause);
-                let travel = &mut self.axes[member].test_travel;
-                (travel.requested, travel.moves, travel.cause) = (false, false, event);
-            }
-            (generator.phase, generator.unit) = (Phase::Set, None);
+            self.end_signal(generator);
         }
+    }
+
+    /// The grouping was opened or closed: the setpoints stay where they are.
+    fn drop_signal(&mut self, generator: &mut Generator) {
+        let place = Place::Axis(generator.wanted.axis);
+        generator.cause = self.log.note_plain(place, Rule::GeneratorStops, generator.cause);
+        for number in generator.axes.iter() {
+            self.axes[number].test_travel.offset = Position::ZERO;
+        }
+        self.end_signal(generator);
+    }
+
+    fn end_signal(&mut self, generator: &mut Generator) {
+        for number in generator.axes.iter() {
+            let event = self.log.note_plain(Place::Axis(number), Rule::GeneratorRests, generator.cause);
+            let travel = &mut self.axes[number].test_travel;
+            (travel.requested, travel.moves, travel.cause) = (false, false, event);
+        }
+        (generator.phase, generator.axes) = (Phase::Set, AxisSet::NONE);
     }
 
     /// Moves the setpoints to the signal, at most at MD32000 of the slowest axis, and within the software limits of the leading axis.

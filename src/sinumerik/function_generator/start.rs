@@ -10,7 +10,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::source::Problem;
-use crate::units::ChannelNumber;
+use crate::units::{AxisSet, ChannelNumber};
 use crate::variables::{EventId, Input, Place};
 
 /// The largest amplitude and offset, in millimetres or degrees.
@@ -44,7 +44,7 @@ impl Nck {
         let state = &mut *self.state;
         let cause = state.log.note_plain(Place::Axis(wanted.axis), Rule::GeneratorSet, EventId::NONE);
         let known = state.generators.iter_mut().find(|one| one.wanted.axis == wanted.axis);
-        let new = Generator { wanted, phase: Phase::Set, unit: None, cause };
+        let new = Generator { wanted, phase: Phase::Set, axes: AxisSet::NONE, cause };
         match known {
             Some(known) if known.phase == Phase::Set => *known = new,
             Some(_) => state.raise_axis_alarm(alarms::GENERATOR_NOT_POSSIBLE, wanted.axis, cause),
@@ -109,7 +109,7 @@ impl State {
             (travel.requested, travel.cause) = (true, event);
             cause = if member == number { event } else { cause };
         }
-        (generator.phase, generator.unit, generator.cause) = (Phase::Requested, Some(unit), cause);
+        (generator.phase, generator.axes, generator.cause) = (Phase::Requested, unit.set, cause);
         true
     }
 

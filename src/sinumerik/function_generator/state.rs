@@ -1,10 +1,9 @@
-//! The signals of the function generator, and what an axis has of them.
+//! The signals of the function generator.
 
 use serde::{Deserialize, Serialize};
 
 use crate::control::FunctionGenerator;
-use crate::sinumerik::state::Unit;
-use crate::units::Position;
+use crate::units::AxisSet;
 use crate::variables::EventId;
 
 /// What becomes of a signal.
@@ -27,28 +26,8 @@ pub(in crate::sinumerik) struct Generator {
     pub wanted: FunctionGenerator,
     /// What becomes of it.
     pub phase: Phase,
-    /// The axes that it moves, once it was started.
-    pub unit: Option<Unit>,
+    /// The axes that it moves; none before it was started.
+    pub axes: AxisSet,
     /// The event behind its phase.
     pub cause: EventId,
-}
-
-/// What an axis has of a signal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct TestTravel {
-    /// The part of the setpoint that is the signal.
-    pub offset: Position,
-    /// 61.0.
-    pub requested: bool,
-    /// The signal moves the setpoint.
-    pub moves: bool,
-    /// The event behind both.
-    pub cause: EventId,
-}
-
-impl TestTravel {
-    /// Everything but the movement is equal.
-    pub(in crate::sinumerik) fn has_decisions_of(&self, other: &Self) -> bool {
-        (self.requested, self.moves, self.cause) == (other.requested, other.moves, other.cause)
-    }
 }

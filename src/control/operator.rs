@@ -1,4 +1,4 @@
-//! The start-up function "function generator".
+//! What an operator starts: block searches and the function generator.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,4 +20,17 @@ pub struct FunctionGenerator {
     pub frequency: f64,
     /// How long it acts.
     pub duration: Time,
+}
+
+/// How a block search comes to its block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SearchKind {
+    /// Nothing before the block counts.
+    WithoutCalculation,
+    /// Everything before it is calculated; the axes go to its start.
+    Contour,
+    /// Everything before it is calculated; the axes go to its end.
+    EndPoint,
+    /// Everything before it is executed in a program test (SERUPRO).
+    ProgramTest,
 }
