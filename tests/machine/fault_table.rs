@@ -136,8 +136,11 @@ enum Follows {
     Jams,
 }
 
-/// A kind of fault: what it is, how far it displaces the axis itself in mm, and what follows.
-const FAULTS: &[(fn() -> FaultKind, f64, Follows)] = &[
+/// A row of the table: the fault, how far it displaces the axis itself in mm, and what follows.
+type Fault = (fn() -> FaultKind, f64, Follows);
+
+/// The kinds of faults.
+const FAULTS: &[Fault] = &[
     (|| FaultKind::Block, 0.0, Follows::Jams),
     (|| FaultKind::Push { by: mm(0.1) }, 0.1, Follows::Nothing),
     (|| FaultKind::Push { by: mm(2.0) }, 2.0, Follows::Trip),
