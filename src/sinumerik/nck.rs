@@ -80,14 +80,14 @@ fn parameters(
     Parameters::new(&data.acting(out_of_range), &presence)
 }
 
-/// A saved control.
+/// A saved control. Its large parts are boxed: a reader has several copies of a part on its stack, which has 2 MB in a thread.
 #[derive(Serialize, Deserialize)]
 struct SavedNck {
-    stored: MachineData,
-    active: MachineData,
+    stored: Box<MachineData>,
+    active: Box<MachineData>,
     output_entered: [AxisSet; 2],
     programs: Library,
-    state: State,
+    state: Box<State>,
 }
 
 impl Nck {
@@ -438,11 +438,11 @@ impl Nck {
     /// The complete state, as bytes.
     pub(super) fn save(&self) -> Vec<u8> {
         let saved = SavedNck {
-            stored: MachineData::clone(&self.stored),
-            active: MachineData::clone(&self.active),
+            stored: Box::new(MachineData::clone(&self.stored)),
+            active: Box::new(MachineData::clone(&self.active)),
             output_entered: self.output_entered,
             programs: Library::clone(&self.programs),
-            state: State::clone(&self.state),
+            state: Box::new(State::clone(&self.state)),
         };
         postcard::to_stdvec(&saved).expect("plain data can always be written")
     }
@@ -464,13 +464,13 @@ impl Nck {
         }
         // Not by value: 0.0 and -0.0 are equal, and are saved with different bytes.
         let same = postcard::to_stdvec(&saved.stored) == postcard::to_stdvec(&saved.active);
-        self.stored = Arc::new(saved.stored);
-        self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
+        self.stored = Arc::from(saved.stored);
+        self.active = if same { Arc::clone(&self.stored) } else { Arc::from(saved.active) };
         self.output_entered = saved.output_entered;
         self.programs = Arc::new(saved.programs);
         self.parameters = Arc::new(self.parameters_now());
         let taken = self.state.log.taken;
-        *self.state = saved.state;
+        self.state = saved.state;
         self.state.log.taken = taken;
         self.resting.begin_anew(&self.state);
         Ok(())
