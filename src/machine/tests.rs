@@ -559,10 +559,10 @@ fn a_switch_to_an_unreferenced_measuring_system_makes_no_synchronism_difference(
 fn what_the_files_ask_for_and_nobody_does_is_said() {
     let machine = example_with("[XF.encoder1]\nkind = \"absolute\"\n");
     let [finding] = machine.findings() else { panic!("{:?}", machine.findings()) };
-    let expected = "acts otherwise: axis XF: the type of encoder 1 is not modelled; an incremental encoder is used\n  \
-        write kind = \"incremental\" in [XF.encoder1] of plant.toml";
+    let expected = "g1_example.tea:82: implausible: MD30240 $MA_ENC_TYPE[0,AX3] = 1, axis XF: the encoder of `plant.toml` is absolute, and \
+        the control uses it as an incremental one\n  set MD30240 = 4 and MD34200 = 0";
     assert_eq!(finding.to_string(), expected);
-    assert!(machine.warnings()[0].contains("1 acts otherwise than on a control"), "{:?}", machine.warnings());
+    assert!(machine.warnings()[0].contains("1 implausible"), "{:?}", machine.warnings());
     assert!(example().warnings().is_empty(), "{:?}", example().warnings());
 }
 

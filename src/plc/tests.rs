@@ -105,6 +105,7 @@ fn programs_are_found_by_name_and_a_misspelt_name_gets_a_suggestion() {
         "limit_edge_marker",
         "machine_control_panel",
         "mine",
+        "position_axis",
         "shared_reference_cam",
         "tool_change"
     ]));

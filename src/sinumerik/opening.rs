@@ -57,12 +57,6 @@ const SEEN_BY_THE_PLC: &[(u32, f64, &str, &str)] = &[
         "the signals of the cams stay 0: test what follows from them at the machine",
     ),
     (24100, 0.0, "transformations are not modelled", "the signals of the transformation stay 0: test in machine axes"),
-    (
-        30460,
-        0.0,
-        "PLC axes and their exchange are not modelled",
-        "the axis stays with its channel: test its exchange at the machine",
-    ),
     (30500, 0.0, "indexing axes are not modelled", "traverse with keys, increments and handwheels in mm or degrees"),
     (
         33050,

@@ -77,7 +77,7 @@ fn sections_have_one_writer_and_step_7_addresses() {
     let of = |db| plc.sections().iter().filter(move |s| s.area == Area::DataBlock(db)).collect::<Vec<&Section>>();
     let spans: Vec<_> = of(31).iter().map(|s| (s.first, s.length, s.writer, s.name.as_str())).collect();
     // In DB31, bytes 0 to 59 belong to the PLC, 60 to 107 to the NCK; the rest is plain memory.
-    assert_eq!(spans, [(0, 60, Source::Plc, "X"), (60, 43, Source::Nck, "X"), (103, 45, Source::Plc, "X")]);
+    assert_eq!(spans, [(0, 60, Source::Plc, "X"), (60, 48, Source::Nck, "X"), (108, 40, Source::Plc, "X")]);
     let hmi: Vec<_> = of(10).iter().filter(|s| s.writer == Source::Hmi).map(|s| (s.first, s.length)).collect();
     assert_eq!(hmi, [(97, 7)]);
     for db in (10..=11).chain(21..=61).chain(SINUMERIK.tables().standard_blocks.iter().copied()) {
@@ -98,12 +98,11 @@ fn the_828d_has_its_own_blocks_with_their_gaps() {
         let of = nc.sections().iter().filter(move |s| s.area == Area::DataBlock(db));
         of.map(|s| (s.first, s.length, s.writer)).collect::<Vec<_>>()
     };
-    let axis = [(0, 12), (1000, 4), (2000, 4), (4000, 4), (5000, 8)];
+    let axis = [(0, 12), (1000, 4), (2000, 4), (3000, 12), (4000, 4), (5000, 8)];
     assert_eq!(spans(3800), axis.map(|(first, length)| (first, length, Source::Plc)));
-    let mut nck = axis.map(|(first, length)| (first, length, Source::Nck)).to_vec();
-    // DB31.DBB103, the last byte, is outside the run of the NCK: plain memory.
-    nck[4].1 = 7;
-    nck.push((5007, 1, Source::Plc));
+    // FC 18 answers in 3000 to 3003.
+    let mut nck = axis.map(|(first, length)| (first, length, Source::Nck));
+    nck[3].1 = 4;
     assert_eq!(spans(3900), nck);
     assert_eq!(spans(31), []);
 }

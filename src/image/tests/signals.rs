@@ -73,7 +73,7 @@ fn every_typed_accessor_reads_and_writes_exactly_the_bits_of_its_row() {
 
 #[test]
 fn a_value_too_large_for_its_group_is_cut_off() {
-    let mut axis = AxisToNck::read_from_bytes(&[0; 30]).unwrap();
+    let mut axis = AxisToNck::read_from_bytes(&[0; size_of::<AxisToNck>()]).unwrap();
     axis.set_drive_data_set_selection(0xFF);
     assert_eq!(axis.drive_data_set_selection(), 0x1F);
     assert!(!axis.motor_has_been_selected());
@@ -167,8 +167,8 @@ fn every_byte_of_the_parts_knows_its_data_block() {
             assert_eq!((location.part, location.offset), (part, offset), "{address}");
         }
     }
-    let referenced =
-        SINUMERIK.signals_at(names().resolve(&memory, "XF.referenced_synchronized_1").unwrap().part, 268 + 2 * 43);
+    let referenced = names().resolve(&memory, "XF.referenced_synchronized_1").unwrap();
+    let referenced = SINUMERIK.signals_at(referenced.part, referenced.offset);
     let names: Vec<_> = referenced.unwrap().signals.iter().map(|signal| signal.name).collect();
     assert_eq!(names[4..6], ["referenced_synchronized_1", "referenced_synchronized_2"]);
 }
@@ -307,8 +307,8 @@ fn numbers_have_the_position_of_the_manuals_and_are_big_endian() {
         .enumerate()
         .filter(|(index, _)| ![68, 78, 79, 80, 81, 86, 87, 88, 89, 90, 91].contains(&(index + 60)));
     assert!(untouched.map(|(_, byte)| byte).all(|byte| *byte == 0xA5));
-    // Besides the two of an axis: S 1 to 3, DL, H 1 to 3, F 1 to 6 of a channel.
-    assert_eq!(signals().filter(|signal| signal.kind == Kind::Real).count(), 2 + 3 + 1 + 3 + 6);
+    // Besides the two of an axis, and position and feed of FC 18: S 1 to 3, DL, H 1 to 3, F 1 to 6 of a channel.
+    assert_eq!(signals().filter(|signal| signal.kind == Kind::Real).count(), 2 + 2 + 3 + 1 + 3 + 6);
 }
 
 #[test]

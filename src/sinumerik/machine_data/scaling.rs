@@ -87,6 +87,7 @@ mod tests {
             "deg",
             "rev",
             "rev/min",
+            "rev/s2",
             "1/rev",
             "1/mm",
             "1/deg",

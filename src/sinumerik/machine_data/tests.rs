@@ -373,12 +373,12 @@ mod ascii_archives {
 
     #[test]
     fn unknown_data_are_kept_and_warned_of() {
-        let text = "N35100 $MA_SPIND_VELO_LIMIT[AX9X]=500\n$TC_DP1[1,1]=120\nN18000 $MN_A=1 \n$MN_A=2\n";
+        let text = "N36901 $MA_SAFE_FUNCTION_ENABLE[AX9X]=500\n$TC_DP1[1,1]=120\nN18000 $MN_A=1 \n$MN_A=2\n";
         let archive = Archive::read([("a.arc", text.as_bytes())]).unwrap();
         assert_eq!(archive.unknown.len(), 3);
         assert_eq!(archive.unknown[2].value, "2");
         let warning = archive.findings[0].to_string();
-        assert!(warning.starts_with("a.arc:1: not modelled: MD35100 $MA_SPIND_VELO_LIMIT: "), "{warning}");
+        assert!(warning.starts_with("a.arc:1: not modelled: MD36901 $MA_SAFE_FUNCTION_ENABLE: "), "{warning}");
         assert!(archive.summary.to_string().starts_with("0 machine data taken, 3 unknown kept"));
     }
 
