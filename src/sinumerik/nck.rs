@@ -469,8 +469,7 @@ impl Nck {
         self.output_entered = saved.output_entered;
         self.programs = Arc::new(saved.programs);
         self.parameters = Arc::new(self.parameters_now());
-        let taken = self.state.log.taken;
-        self.state = saved.state;
+        let taken = std::mem::replace(&mut self.state, saved.state).log.taken;
         self.state.log.taken = taken;
         self.resting.begin_anew(&self.state);
         Ok(())

@@ -60,7 +60,8 @@ fn writing_a_group_leaves_the_rest_of_its_byte() {
 #[test]
 fn plain_bytes_are_memory_like_any_other() {
     let (mut memory, names) = (Memory::new(), names());
-    for text in ["DB10.DBB0", "DB10.DBB271", "DB11.DBX63.7", "DB21.DBW300", "DB22.DBB290", "DB31.DBB59", "DB61.DBD144"] {
+    for text in ["DB10.DBB0", "DB10.DBB271", "DB11.DBX63.7", "DB21.DBW300", "DB22.DBB290", "DB31.DBB59", "DB61.DBD144"]
+    {
         write(&mut memory, text, 1);
         assert!(reads(&memory, text, 1.0), "{text}");
         let location = names.resolve(&memory, text).unwrap();

@@ -14,7 +14,8 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         let waits = of.request.is_some_and(|request| request.by.is_by_plc());
         let what = format!("the PLC has asked for an exchange of {} that is not carried out", look.axis_name(axis));
         let rises = look.rises(Place::Axis(axis), axis_to_nck::replacement_activation_signal, of.strobe_was);
-        fact(what, waits).after(|| rises)
+        let strobe = look.axis(axis, axis_to_nck::replacement_activation_signal, true);
+        fact(what, waits).after(|| Condition::All(vec![strobe, rises]))
     }),
     Row::new(axis_from_nck::axis_replacement_possible, |look, axis| {
         let possible = look.state.exchange_status(axis).possible;

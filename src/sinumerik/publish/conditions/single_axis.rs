@@ -32,8 +32,10 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         let order = look.state.single.axes[axis].order;
         let active = order.is_some_and(|order| order.by == OrderedBy::Plc);
         let was = look.state.single.axes[axis].start_was;
-        fact(format!("the PLC positions {}", look.axis_name(axis)), active)
-            .after(|| look.rises(Place::Axis(axis), axis_to_nck::start_positioning_axis, was))
+        fact(format!("the PLC positions {}", look.axis_name(axis)), active).after(|| {
+            let start = look.axis(axis, axis_to_nck::start_positioning_axis, true);
+            Condition::All(vec![start, look.rises(Place::Axis(axis), axis_to_nck::start_positioning_axis, was)])
+        })
     }),
     Row::new(axis_from_nck::position_reached, |look, axis| look.ended(axis, "reached", Outcome::Reached)),
     Row::new(axis_from_nck::positioning_error, |look, axis| {
