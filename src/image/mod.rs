@@ -62,7 +62,7 @@ pub use numbering::{Numbering, Window};
 pub use override_switch::{OverrideCoding, override_code};
 pub use preset::Preset;
 pub use profile::Profile;
-pub use signal::{Block, Kind, Signal, Writer};
+pub use signal::{Block, Kind, Signal, Unit, Writer};
 pub use sinumerik::{
     AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
     ChannelSearchFromNck, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck,

@@ -1,9 +1,11 @@
 //! The names of one machine: its axes and channels, and the profile that numbers its interface blocks.
 
+use std::borrow::Cow;
+
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel};
 
-use super::{Address, Area, Block, Interface, Location, Memory, Part, Profile, Width, Writer};
+use super::{Address, Area, Block, Interface, Location, Memory, Part, Profile, Unit, Width, Writer};
 
 /// The names of the axes and channels of a machine, its interface, and the numbering of the interface blocks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -12,6 +14,8 @@ pub struct Names {
     pub axes: PerAxis<Option<String>>,
     /// Channel names; `None` for channels that do not exist.
     pub channels: PerChannel<Option<String>>,
+    /// Further names of axes.
+    pub aliases: Vec<(String, AxisNumber)>,
     /// The interface with its numbering.
     pub profile: Profile,
 }
@@ -26,7 +30,18 @@ impl Names {
     /// The number of the axis with this name.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
-        self.axes.iter().find(|(_, other)| other.as_deref() == Some(name)).map(|(number, _)| number)
+        let named = self.axes.iter().find(|(_, other)| other.as_deref() == Some(name)).map(|(number, _)| number);
+        named.or_else(|| self.aliases.iter().find(|(alias, _)| alias == name).map(|(_, number)| *number))
+    }
+
+    /// A text in which the name of an axis before the first dot is not an alias.
+    #[must_use]
+    pub fn without_alias<'a>(&self, text: &'a str) -> Cow<'a, str> {
+        let found = text.split_once('.').and_then(|(owner, rest)| {
+            let (_, axis) = self.aliases.iter().find(|(alias, _)| alias == owner)?;
+            Some(format!("{}.{rest}", self.axes[*axis].as_deref()?))
+        });
+        found.map_or(Cow::Borrowed(text), Cow::Owned)
     }
 
     /// The number of the channel with this name.
@@ -84,6 +99,16 @@ impl Names {
             }
             seen.push((name, block, number));
         }
+        for (alias, axis) in &self.aliases {
+            let others = self.aliases.iter().filter(|(other, _)| other == alias).count();
+            if others > 1 || seen.iter().any(|(name, ..)| name == alias) {
+                let what = self.interface().described(Block::Axis, axis.number());
+                return Err(Problem::new(
+                    format!("expected different names, found `{alias}` for {what} and for something else"),
+                    format!("rename one of them ({named_in})"),
+                ));
+            }
+        }
         Ok(())
     }
 
@@ -101,8 +126,34 @@ impl Names {
         }
     }
 
+    /// The location that is written for a symbol or an address, and a bit that is set with it: a control unit takes a value only with its
+    /// enable.
+    ///
+    /// # Errors
+    /// As [`Names::resolve`].
+    pub fn resolve_written(&self, memory: &Memory, text: &str) -> Result<(Location, Option<Location>), Problem> {
+        let unit = text.split_once('.').and_then(|(owner, name)| {
+            let (block, number) = self.block(owner)?;
+            let unit = self.unit(block, name)?;
+            let location = |signal| self.interface().location(signal, number);
+            Some((location(&unit.command)?, location(&unit.enable)))
+        });
+        unit.map_or_else(|| Ok((self.resolve(memory, text)?, None)), Ok)
+    }
+
+    /// The block of an owner, by a name or an alias.
+    fn block(&self, owner: &str) -> Option<(Block, u8)> {
+        let named = self.owners().find(|(other, ..)| *other == owner).map(|(_, block, number)| (block, number));
+        let alias = || self.aliases.iter().find(|(alias, _)| alias == owner);
+        named.or_else(|| alias().map(|(_, axis)| (Block::Axis, axis.number())))
+    }
+
+    fn unit(&self, block: Block, name: &str) -> Option<&'static Unit> {
+        self.interface().tables().units.iter().find(|unit| unit.name == name && unit.command.block == block)
+    }
+
     fn lookup(&self, owner: &str, name: &str) -> Result<Location, Problem> {
-        let Some((_, block, number)) = self.owners().find(|(other, ..)| *other == owner) else {
+        let Some((block, number)) = self.block(owner) else {
             let known: Vec<&str> = self.owners().map(|(name, ..)| name).collect();
             let cure = self
                 .renamed(owner)
@@ -110,7 +161,8 @@ impl Names {
             return Err(Problem::new(format!("expected one of `{}`, found `{owner}`", known.join("`, `")), cure));
         };
         let of_block = || self.interface().signals().filter(|signal| signal.block == block);
-        let found = of_block().find(|signal| signal.name == name);
+        let state = || self.unit(block, name).map(|unit| &unit.state);
+        let found = of_block().find(|signal| signal.name == name).or_else(state);
         let found = found.and_then(|signal| self.interface().location(signal, number));
         found.ok_or_else(|| {
             let cure = match nearest(name, of_block().map(|signal| signal.name)) {

@@ -78,3 +78,24 @@ pub struct Signal {
     /// The meaning, with its 1 and 0.
     pub doc: &'static str,
 }
+
+impl Signal {
+    /// The signal under another name, for names that are no identifiers: `gantry_on.enable_w`.
+    #[must_use]
+    pub const fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+}
+
+/// A control unit: a name that stands for several signals of one block. Written, it is `enable` = 1 and the command; read, it is the state.
+#[derive(Debug)]
+pub struct Unit {
+    /// The name, in the place of the name of a signal.
+    pub name: &'static str,
+    /// 1 = the command acts.
+    pub enable: Signal,
+    /// The value that the PLC gives.
+    pub command: Signal,
+    /// The value that acts.
+    pub state: Signal,
+}

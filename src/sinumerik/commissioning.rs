@@ -145,6 +145,7 @@ impl Configuration for Commissioning {
         let names = Names {
             axes: PerAxis::from_fn(|axis| presence[axis].exists.then(|| data.axis_name(axis).to_owned())),
             channels: PerChannel::from_fn(|channel| Some(data.channels[channel].chan_name.clone())),
+            aliases: Vec::new(),
             profile,
         };
         names.check()?;
