@@ -53,6 +53,8 @@ pub struct Settings {
     pub machine: Table,
     /// `[compatibility]`.
     pub compatibility: Table,
+    /// `[control]`.
+    pub control: Table,
 }
 
 /// A datum that a scenario stores before the first power on.
@@ -84,6 +86,8 @@ pub struct Site<'a> {
     pub names_axis: &'a dyn Fn(&str) -> bool,
     /// The types of encoder 1 and 2 of an axis, if the plant defines them.
     pub encoders: &'a dyn Fn(&str) -> [Option<EncoderModel>; 2],
+    /// Whether the drive of an axis reacts and homes by itself.
+    pub intelligent: &'a dyn Fn(&str) -> bool,
     /// The place where the plant gives an axis a reference cam, if it does.
     pub cam: &'a dyn Fn(&str) -> Option<Place>,
 }

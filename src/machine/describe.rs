@@ -6,7 +6,7 @@ use crate::image::{Location, Names};
 use crate::motion::Encoder;
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
+use crate::variables::{AlarmNumber, Describe, Parameter, Place, RaisedAlarm, Rule, RuleNumber};
 
 impl Describe for Machine {
     fn names(&self) -> &Names {
@@ -38,6 +38,10 @@ impl Describe for Machine {
 
     fn has_alarm(&self, number: AlarmNumber) -> bool {
         self.control.texts().alarm(number).is_some()
+    }
+
+    fn parameter(&self, name: &str, place: Place) -> Option<(u32, [u16; 2])> {
+        self.control.texts().parameter(name, place)
     }
 
     fn rule(&self, rule: RuleNumber) -> Rule {

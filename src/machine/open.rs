@@ -63,11 +63,13 @@ impl Machine {
         let mut settings = Settings {
             machine: plant.machine.take().unwrap_or_else(|| Table::empty(plant_place.clone())),
             compatibility: plant.compatibility.take().unwrap_or_else(|| Table::empty(plant_place.clone())),
+            control: plant.control.take().unwrap_or_else(|| Table::empty(plant_place.clone())),
         };
         let opened = configuration.open(
             &Site {
                 names_axis: &|name| plant.axes.contains_key(name),
                 encoders: &|name| encoders(&plant, name),
+                intelligent: &|name| plant.axes.get(name).is_some_and(|axis| axis.drive.intelligent),
                 cam: &|name| cam_place(&plant, name),
             },
             &mut settings,
@@ -75,7 +77,12 @@ impl Machine {
         )?;
         settings.machine.finish()?;
         settings.compatibility.finish()?;
+        settings.control.finish()?;
         let Opened { control, names, axes, groupings, findings } = opened;
+        plant.rename(|name| {
+            let axis = names.axes.iter().all(|(_, other)| other.as_deref() != Some(name)).then(|| names.axis(name));
+            axis.flatten().and_then(|axis| names.axes[axis].clone())
+        });
         plant.check(&configuration.axis_names(), names.interface().tables().named_in, configuration.groupings())?;
         check_cycle_times(control.cycle_times(), control.texts().cycle_data())?;
         let memory = match &options.preset {

@@ -271,6 +271,9 @@ fn named(kind: FaultKind) -> (FaultName, Option<f64>) {
         FaultKind::Friction { by } => (FaultName::Friction, Some(by)),
         FaultKind::Drift { by } => (FaultName::Drift, Some(by / Position::PER_USER_UNIT)),
         FaultKind::SwitchStuck { .. } => (FaultName::SwitchStuck, None),
+        FaultKind::Hold { by } => (FaultName::Hold, Some(by.user())),
+        FaultKind::MovedByHand { by } => (FaultName::MovedByHand, Some(by.user())),
+        FaultKind::DriveNotReady => (FaultName::DriveNotReady, None),
     }
 }
 

@@ -136,7 +136,9 @@ impl Machine {
     pub(super) fn sense(&mut self, axes: AxisSet) {
         self.state.plant.press_switches(&self.definition.layout, axes);
         for axis in axes.iter() {
-            self.state.feedback[axis] = self.state.plant.feedback(&self.definition.layout, axis);
+            let mut feedback = self.state.plant.feedback(&self.definition.layout, axis);
+            feedback.cam = self.state.plant.pressed(crate::plant::Switch::Cam).contains(axis);
+            self.state.feedback[axis] = feedback;
         }
     }
 }

@@ -38,6 +38,8 @@ pub struct Feedback {
     pub absolute: [bool; 2],
     /// Encoders without a signal.
     pub encoder_faults: [bool; 2],
+    /// The slide presses its reference cam.
+    pub cam: bool,
     /// True position of the slide. Only the display of the simulator uses it; the control does not know it.
     pub slide: Position,
 }

@@ -26,6 +26,8 @@ pub struct PlantDefinition {
     pub machine: Option<Table>,
     /// The keys of `[compatibility]`: they belong to the control.
     pub compatibility: Option<Table>,
+    /// The keys of `[control]`: they belong to the control.
+    pub control: Option<Table>,
     /// The axes by machine axis name.
     pub axes: BTreeMap<String, AxisPlant>,
     /// The bridges by gantry grouping.
@@ -51,6 +53,8 @@ pub struct AxisPlant {
     pub place: Place,
     /// Position of the slide at power on.
     pub start: Position,
+    /// It is homed at power on, as with an adjusted absolute encoder.
+    pub homed: bool,
     /// The drive.
     pub drive: Drive,
     /// Encoder 1 and encoder 2.
@@ -180,6 +184,7 @@ impl AxisPlant {
         Self {
             place,
             start: Position::ZERO,
+            homed: false,
             drive: Drive::default(),
             encoders: [EncoderPlant::default(); 2],
             gravity: false,
@@ -223,6 +228,9 @@ impl PlantDefinition {
         if let Some(node) = table.take("compatibility") {
             plant.compatibility = Some(node.into_table("the table [compatibility]")?);
         }
+        if let Some(node) = table.take("control") {
+            plant.control = Some(node.into_table("the table [control]")?);
+        }
         if let Some(node) = table.take("bridge") {
             for (grouping, place, node) in node.into_table("tables such as [bridge.1]")?.take_rest() {
                 let number = grouping.parse().ok().filter(|number| *number >= 1).ok_or_else(|| {
@@ -236,13 +244,23 @@ impl PlantDefinition {
         }
         for (name, place, node) in table.take_rest() {
             let what = format!("a table [{name}] for the machine axis `{name}`");
-            let known = ["machine", "bridge", "compatibility"];
+            let known = ["machine", "bridge", "compatibility", "control"];
             let table = node
                 .into_table(&what)
                 .map_err(|problem| Problem { cure: did_you_mean(&name, known, &problem.cure), ..problem })?;
             plant.axes.insert(name, axis(table, place)?);
         }
         Ok(plant)
+    }
+
+    /// Gives axes another name where there is one.
+    pub fn rename(&mut self, other: impl Fn(&str) -> Option<String>) {
+        let axes = std::mem::take(&mut self.axes);
+        self.axes = axes.into_iter().map(|(name, axis)| (other(&name).unwrap_or(name), axis)).collect();
+        for bridge in self.bridges.values_mut() {
+            let offsets = std::mem::take(&mut bridge.offset);
+            bridge.offset = offsets.into_iter().map(|(name, offset)| (other(&name).unwrap_or(name), offset)).collect();
+        }
     }
 
     /// Checks every axis name against the names of the machine axes (exact case), and every bridge against the largest number of a gantry
@@ -280,6 +298,9 @@ fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
     let mut plant = AxisPlant::new(place);
     if let Some(node) = table.take("start") {
         plant.start = position(&node, "the position of the slide in mm or degrees")?;
+    }
+    if let Some(node) = table.take("homed") {
+        plant.homed = node.boolean("whether the axis is homed at power on")?;
     }
     if let Some(node) = table.take("drive") {
         plant.drive = drive(node)?;

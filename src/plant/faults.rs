@@ -57,6 +57,18 @@ pub enum FaultKind {
         /// Pressed or not.
         at: bool,
     },
+    /// The slide stands this far from where its drive wants it.
+    Hold {
+        /// Distance.
+        by: Position,
+    },
+    /// The slide is displaced once, with its drive off: the drive does not bring it back.
+    MovedByHand {
+        /// Distance.
+        by: Position,
+    },
+    /// The drive is not ready; it reports no fault.
+    DriveNotReady,
 }
 
 impl FaultKind {
@@ -71,8 +83,10 @@ impl FaultKind {
     /// A number is not finite or out of range, or there is no such encoder.
     pub fn check(self) -> Result<(), Problem> {
         let (expected, found, is_possible) = match self {
-            Self::Block | Self::ZeroMarkMissing | Self::DriveFault | Self::SwitchStuck { .. } => return Ok(()),
-            Self::Push { by } | Self::EncoderSlip { by } => {
+            Self::Block | Self::ZeroMarkMissing | Self::DriveFault | Self::DriveNotReady | Self::SwitchStuck { .. } => {
+                return Ok(());
+            }
+            Self::Push { by } | Self::EncoderSlip { by } | Self::Hold { by } | Self::MovedByHand { by } => {
                 let by = by.user();
                 ("a distance in mm or degrees from -1000000 to 1000000", by, by.abs() <= Self::FARTHEST_PUSH)
             }

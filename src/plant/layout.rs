@@ -30,6 +30,8 @@ pub struct AxisMechanics {
     pub ready_after: Time,
     /// Both encoders.
     pub encoders: [Encoder; 2],
+    /// The drive reacts and homes by itself: with a fault it follows the control as long as the control commands it.
+    pub intelligent: bool,
     /// The weight of the slide pulls in minus direction.
     pub gravity: bool,
     /// The holding brake of the motor.
@@ -153,7 +155,8 @@ fn axis_mechanics(definition: &PlantDefinition, name: &str, hints: Hints) -> Axi
         let spacing = encoder.zero_mark_spacing.unwrap_or(hints.zero_mark_spacing[index]);
         let new = Encoder::new(encoder.resolution, encoder.zero_mark, spacing, said.start);
         let (shift, inverted) = hints.zero_mark_code[index];
-        match encoder.kind.unwrap_or(hints.encoders[index]) {
+        let kind = if said.homed && index == 0 { Some(EncoderKind::Absolute) } else { encoder.kind };
+        match kind.unwrap_or(hints.encoders[index]) {
             EncoderKind::Incremental => new,
             EncoderKind::Absolute => new.absolute(encoder.zero),
             EncoderKind::DistanceCoded => {
@@ -171,6 +174,7 @@ fn axis_mechanics(definition: &PlantDefinition, name: &str, hints: Hints) -> Axi
         time_constant: said.drive.time_constant.seconds(),
         ready_after: said.drive.ready_after,
         encoders,
+        intelligent: said.drive.intelligent,
         gravity: said.gravity,
         brake: said.brake,
         leadscrew: said.leadscrew.clone(),

@@ -32,6 +32,9 @@ struct Slide {
     blocked: bool,
     zero_mark_missing: bool,
     drive_fault: bool,
+    /// Part of the position that its drive does not see.
+    held: Position,
+    drive_not_ready: bool,
     /// The constant signal of an encoder with a fault.
     dead: [Option<Position>; 2],
     /// Remaining share of the velocity.
@@ -110,6 +113,9 @@ impl Plant {
             FaultKind::Friction { by } => slide.grip = 1.0 - by,
             FaultKind::Drift { by } => slide.drift = by,
             FaultKind::SwitchStuck { which, at } => slide.stuck[which as usize] = Some(at),
+            FaultKind::Hold { by } => slide.hold_away(by),
+            FaultKind::MovedByHand { by } => slide.push(by),
+            FaultKind::DriveNotReady => slide.drive_not_ready = true,
         }
     }
 
@@ -122,7 +128,9 @@ impl Plant {
         self.changed.set(fault.axis, true);
         match fault.kind {
             FaultKind::Block => slide.blocked = false,
-            FaultKind::Push { .. } | FaultKind::EncoderSlip { .. } => {}
+            FaultKind::Push { .. } | FaultKind::EncoderSlip { .. } | FaultKind::MovedByHand { .. } => {}
+            FaultKind::Hold { .. } => slide.hold_away(Position::ZERO),
+            FaultKind::DriveNotReady => slide.drive_not_ready = false,
             FaultKind::ZeroMarkMissing => slide.zero_mark_missing = false,
             FaultKind::DriveFault => slide.drive_fault = false,
             FaultKind::EncoderFault { encoder: None } => {
@@ -151,7 +159,8 @@ impl Plant {
         let mut changed = AxisSet::NONE;
         for axis in axes.iter() {
             if let (Some(slide), Some(mechanics)) = (&mut self.slides[axis], &layout.axes[axis]) {
-                let command = command(axis, slide.values()).filter(|_| !slide.drive_fault);
+                let has_power = !slide.drive_not_ready && (!slide.drive_fault || mechanics.intelligent);
+                let command = command(axis, slide.values()).filter(|_| has_power);
                 changed.set(axis, slide.advance(command, mechanics, cycle));
             }
         }
@@ -320,6 +329,8 @@ impl Slide {
             blocked: false,
             zero_mark_missing: false,
             drive_fault: false,
+            held: Position::ZERO,
+            drive_not_ready: false,
             dead: [None; 2],
             grip: 1.0,
             drift: 0.0,
@@ -329,10 +340,11 @@ impl Slide {
 
     /// The present counts of both encoders.
     fn values(&self) -> [Position; 2] {
-        if self.position == self.reported {
+        if self.position == self.reported && self.held == Position::ZERO {
             return self.counts;
         }
-        [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.position)))
+        let seen = self.position - self.held;
+        [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(seen)))
     }
 
     /// The signals of drive and encoders since the last call.
@@ -343,10 +355,11 @@ impl Slide {
             half_count: [self.encoders[0].half_count(), self.encoders[1].half_count()],
             velocity: self.drive.velocity() + self.pulled,
             brake: brake.map_or(Brake::None, |_| self.hold.state()),
-            drive_ready: self.ready_in == Time::ZERO && !self.drive_fault,
+            drive_ready: self.ready_in == Time::ZERO && !self.drive_fault && !self.drive_not_ready,
             drive_fault: self.drive_fault,
             absolute: self.encoders.map(|encoder| encoder.is_absolute()),
             encoder_faults: self.dead.map(|dead| dead.is_some()),
+            cam: false,
             slide: self.position + leadscrew.error(self.position) + self.play,
         }
     }
@@ -371,6 +384,12 @@ impl Slide {
     /// Displaces the slide, within its permitted range.
     fn push(&mut self, by: Position) {
         self.position = within_reach(self.position.increments().saturating_add(by.increments()));
+    }
+
+    /// Holds the slide this far from where its drive wants it.
+    fn hold_away(&mut self, by: Position) {
+        self.push(by - self.held);
+        self.held = by;
     }
 
     /// Updates the encoder counts after a displacement.

@@ -53,6 +53,10 @@ faults! {
             let at = keys.required("at", "write at = 1")?;
             Ok(FaultKind::SwitchStuck { which: switch(&which)?, at: one_or_zero(&at)? })
         };
+    Hold: FaultKind::Hold { by } => distance_written(by), |keys| Ok(FaultKind::Hold { by: keys.distance()? });
+    MovedByHand: FaultKind::MovedByHand { by } =>
+        distance_written(by), |keys| Ok(FaultKind::MovedByHand { by: keys.distance()? });
+    DriveNotReady: FaultKind::DriveNotReady => String::new(), |_| Ok(FaultKind::DriveNotReady);
 }
 
 /// The keys of a fault.

@@ -95,7 +95,7 @@ fn without_effect(what: NoEffect, names: &Names) -> String {
         NoEffect::ClearFault { axis, name } => {
             let (axis, kind) = (axis_name(axis, names), name.name());
             match name {
-                FaultName::Push | FaultName::EncoderSlip => {
+                FaultName::Push | FaultName::EncoderSlip | FaultName::MovedByHand => {
                     format!("`clear_fault` without effect: a {kind} displaces {axis} once, and the displacement stays")
                 }
                 FaultName::Block
@@ -104,7 +104,9 @@ fn without_effect(what: NoEffect, names: &Names) -> String {
                 | FaultName::EncoderFault
                 | FaultName::Friction
                 | FaultName::Drift
-                | FaultName::SwitchStuck => format!("`clear_fault` without effect: {axis} had no fault {kind}"),
+                | FaultName::SwitchStuck
+                | FaultName::Hold
+                | FaultName::DriveNotReady => format!("`clear_fault` without effect: {axis} had no fault {kind}"),
             }
         }
     }

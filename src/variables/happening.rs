@@ -27,6 +27,12 @@ pub enum FaultName {
     Drift,
     /// A switch is stuck.
     SwitchStuck,
+    /// The slide is held away from where its drive wants it.
+    Hold,
+    /// The slide was moved while its drive was off.
+    MovedByHand,
+    /// The drive is not ready.
+    DriveNotReady,
 }
 
 impl FaultName {
@@ -43,6 +49,9 @@ impl FaultName {
             Self::Friction => "friction",
             Self::Drift => "drift",
             Self::SwitchStuck => "switch_stuck",
+            Self::Hold => "hold",
+            Self::MovedByHand => "moved_by_hand",
+            Self::DriveNotReady => "drive_not_ready",
         }
     }
 }

@@ -89,9 +89,10 @@ impl Coupled {
         axes.is_referenced(self.follower.axis) && axes.is_referenced(leader)
     }
 
-    /// The distance between follower and leader at the end of a realignment.
-    pub(super) fn offset(&self) -> Position {
-        self.absolute_base().unwrap_or(self.base)
+    /// The distance between follower and leader at the end of a realignment: before both are referenced, the distance that counts as no
+    /// difference.
+    pub(super) fn offset(&self, leader: AxisNumber, axes: &impl Axes) -> Position {
+        self.absolute_base().filter(|_| self.is_referenced(leader, axes)).unwrap_or(self.base)
     }
 
     /// Takes the present positions as no difference, unless the base is absolute or is captured at another time.
@@ -240,7 +241,22 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
     #[must_use]
     pub fn misalignment(&self, follower: AxisNumber, axes: &impl Axes) -> Option<Position> {
         let coupled = self.follower(follower)?;
-        Some(coupled.apart(self.leader, axes) - coupled.offset())
+        Some(coupled.apart(self.leader, axes) - coupled.offset(self.leader, axes))
+    }
+
+    /// The distance between the setpoints of a follower and the leader beyond the offset: what a realignment moves.
+    #[must_use]
+    pub fn setpoint_misalignment(&self, follower: AxisNumber, axes: &impl Axes) -> Option<Position> {
+        let coupled = self.follower(follower)?;
+        let setpoint = |axis| axes.setpoint(axis).position;
+        let apart = setpoint(follower) - coupled.follower.factor * setpoint(self.leader);
+        Some(apart - coupled.offset(self.leader, axes))
+    }
+
+    /// Whether the difference of a follower is compared with limits.
+    #[must_use]
+    pub fn is_monitored(&self, follower: AxisNumber) -> bool {
+        self.follower(follower).is_some_and(|coupled| coupled.follower.limits.is_some())
     }
 
     /// The difference of each follower and the limits that it exceeded at the last comparison.

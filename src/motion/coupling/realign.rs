@@ -8,7 +8,7 @@ use arrayvec::ArrayVec;
 
 use super::difference::{Events, What};
 use super::policy::{Moves, Realign, Target};
-use super::state::{Axes, Connection, Coupling, MEMBERS, Realignment};
+use super::state::{Axes, Connection, Coupled, Coupling, MEMBERS, Realignment};
 use crate::motion::{Limits, Motion};
 use crate::units::{AxisNumber, Position};
 
@@ -58,7 +58,7 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         let mut commands = ArrayVec::new();
         let (mut arrived, mut late) = (true, None);
         for axis in self.members().filter(|&axis| realignment.moves == Moves::All || axis != self.leader) {
-            let target = self.member_target(axis, realignment.target);
+            let target = self.member_target(axis, realignment.target, axes);
             let setpoint = axes.setpoint(axis);
             let rests = setpoint.is_at_rest() && setpoint.position == target;
             let done = rests && is_in_position(axis);
@@ -88,7 +88,8 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         }
     }
 
-    fn member_target(&self, axis: AxisNumber, leader: Position) -> Position {
-        self.follower(axis).map_or(leader, |coupled| coupled.follower.factor * leader + coupled.offset())
+    fn member_target(&self, axis: AxisNumber, leader: Position, axes: &impl Axes) -> Position {
+        let target = |coupled: &Coupled| coupled.follower.factor * leader + coupled.offset(self.leader, axes);
+        self.follower(axis).map_or(leader, target)
     }
 }
