@@ -405,6 +405,11 @@ pub trait Texts: Sync {
         self.rules().get(usize::from(rule.0)).copied().unwrap_or(Rule { id: "?", text: "unknown rule" })
     }
 
+    /// The number and the indices of a parameter of an axis or a channel, by its name. The default is a control without named parameters.
+    fn parameter(&self, _name: &str, _place: Place) -> Option<(u32, [u16; 2])> {
+        None
+    }
+
     /// The name of a datum in a cause: `MD37110`.
     fn datum_name(&self, number: u32) -> String;
 

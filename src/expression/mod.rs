@@ -33,6 +33,7 @@
 mod edges;
 mod followed;
 mod history;
+mod of_control;
 mod parse;
 mod scope;
 mod term;

@@ -2,20 +2,37 @@
 
 use std::collections::BTreeSet;
 
+use super::of_control::OfControl;
 use super::scope::Scope;
 use super::term::{CauseTerm, FollowedTerm, Operator, Question, Term};
 use super::tokens::{MACHINE_DATA, Token, excerpt, mistake, tokens};
 use crate::image::Location;
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{AlarmNumber, AxisValue, NamedValue, Place, RuleNumber};
+use crate::variables::{AlarmNumber, AxisValue, NamedValue, Place, RuleNumber, short_text};
 
 /// The maximum nesting depth of parentheses.
 const DEPTH: usize = 100;
 
 /// All functions.
-const FUNCTIONS: [&str; 11] =
-    ["alarm", "alarm_parameter", "alarms", "cause", "rose", "fell", "since", "count", "abs", "min", "max"];
+const FUNCTIONS: [&str; 16] = [
+    "alarm",
+    "alarm_parameter",
+    "alarms",
+    "cause",
+    "rose",
+    "fell",
+    "since",
+    "count",
+    "abs",
+    "min",
+    "max",
+    "message",
+    "warnings",
+    "errors",
+    "active_group",
+    "parameter",
+];
 
 struct Parser<'a> {
     source: &'a str,
@@ -154,6 +171,28 @@ impl Parser<'_> {
                 };
                 Term::Alarm(alarm, place)
             }
+            "message" => {
+                let number = self.alarm()?;
+                let place = self.further_place()?;
+                Term::OfControl(Box::new(OfControl::Message(number, place)))
+            }
+            "warnings" | "errors" => {
+                let place = if self.peek() == &Token::Sign(")") { None } else { Some(self.place()?) };
+                Term::OfControl(Box::new(OfControl::Messages { warnings: name == "warnings", place }))
+            }
+            "active_group" => {
+                let whole = self.expected("the number of a coupling group");
+                let Token::Number(number) = self.next() else { return Err(whole) };
+                let group = whole_number(number, 7).and_then(|group| u8::try_from(group).ok()).ok_or(whole)?;
+                let problem = self.expected("the name of a channel");
+                let channel = match self.further_place()? {
+                    None => ChannelNumber::FIRST,
+                    Some(Place::Channel(channel)) => channel,
+                    Some(_) => return Err(problem),
+                };
+                Term::OfControl(Box::new(OfControl::ActiveGroup(group, channel)))
+            }
+            "parameter" => self.parameter()?,
             "alarm_parameter" => {
                 let alarm = self.alarm()?;
                 self.sign(",")?;
@@ -201,6 +240,33 @@ impl Parser<'_> {
         };
         self.sign(")")?;
         Ok(term)
+    }
+
+    /// The place after a comma, if there is one.
+    fn further_place(&mut self) -> Result<Option<Place>, Problem> {
+        if self.peek() != &Token::Sign(",") {
+            return Ok(None);
+        }
+        self.next();
+        self.place().map(Some)
+    }
+
+    /// `parameter(ax5, 'getriebe[0].dynamik.a_max')`, or with a word as third argument.
+    fn parameter(&mut self) -> Result<Term, Problem> {
+        let place = self.place()?;
+        self.sign(",")?;
+        let unknown = self.expected("the list name or the ID of a parameter, in quotes");
+        let Token::Quoted(name) = self.next() else { return Err(unknown) };
+        let (number, index) = self.scope.describe().parameter(&name, place).ok_or(unknown)?;
+        let word = if self.peek() == &Token::Sign(",") {
+            self.next();
+            let problem = self.expected("a word in quotes");
+            let Token::Quoted(word) = self.next() else { return Err(problem) };
+            Some(short_text(&word))
+        } else {
+            None
+        };
+        Ok(Term::OfControl(Box::new(OfControl::Parameter { number, index, place, name, word })))
     }
 
     /// The condition of a function that looks at several cycles.

@@ -1,5 +1,6 @@
 //! The terms of an expression: their values at a moment, and the names of their operands in messages.
 
+use super::of_control::OfControl;
 use super::view::{Moment, View};
 use crate::image::Location;
 use crate::variables::{AlarmNumber, Describe, NamedValue, Parameter, Place, RuleNumber, place_name, six_decimals};
@@ -37,6 +38,7 @@ pub(super) enum Term {
     Edge { rising: bool, of: Box<Self> },
     Followed(Box<FollowedTerm>),
     Cause(Box<CauseTerm>),
+    OfControl(Box<OfControl>),
     Not(Box<Self>),
     Negative(Box<Self>),
     Absolute(Box<Self>),
@@ -135,6 +137,7 @@ impl Term {
                     Question::Count => followed.map_or(0.0, |followed| followed.count() as f64),
                 }
             }
+            Self::OfControl(term) => term.value(now),
             Self::Cause(term) => number(term.last_rule(now).is_some_and(|rule| term.rules.contains(&rule))),
             Self::Not(of) => number(!truth(of.value(view))),
             Self::Negative(of) => -of.value(view),
@@ -156,6 +159,7 @@ impl Term {
             | Self::Alarm(..)
             | Self::AlarmParameter(..)
             | Self::Alarms
+            | Self::OfControl(_)
             | Self::Cause(_) => [None, None],
         }
     }
@@ -174,6 +178,7 @@ impl Term {
             | Self::Alarm(..)
             | Self::AlarmParameter(..)
             | Self::Alarms
+            | Self::OfControl(_)
             | Self::Cause(_) => [None, None],
         }
     }
@@ -197,6 +202,7 @@ impl Term {
             | Self::Alarms
             | Self::Edge { .. }
             | Self::Followed(_)
+            | Self::OfControl(_)
             | Self::Cause(_)
             | Self::Negative(_)
             | Self::Absolute(_) => self.not_compared(view),
@@ -268,6 +274,7 @@ impl Term {
                 format!("alarm_parameter({}, {})", describe.alarm_name(*alarm), index + 1)
             }
             Self::Alarms => "alarms()".to_owned(),
+            Self::OfControl(term) => term.name(describe),
             Self::Followed(term) => term.text.clone(),
             Self::Number(_)
             | Self::Edge { .. }

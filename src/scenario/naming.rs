@@ -109,9 +109,17 @@ pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Proble
 /// The location of a signal that the NCK does not write.
 pub(super) fn written_by_others(machine: &Machine, name: &str) -> Result<Location, Problem> {
     let names = machine.names();
+    if let Ok((location, Some(_))) = names.resolve_written(machine.memory(), name) {
+        return Ok(location);
+    }
     let location = signal_named(machine, name).map_err(|problem| no_signal(machine, name, problem))?;
     names.check_writer(location)?;
     Ok(location)
+}
+
+/// The bit that is written with a signal: the enable of a control unit.
+pub(super) fn enable_of(machine: &Machine, name: &str) -> Option<Location> {
+    machine.names().resolve_written(machine.memory(), name).ok()?.1
 }
 
 /// The problem of a signal whose axis, channel or mode group this machine does not have: nothing would read what is written there.

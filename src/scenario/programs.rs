@@ -93,7 +93,7 @@ impl NcPrograms {
         for entry in fs::read_dir(shown).map_err(problem)? {
             let path = entry.map_err(problem)?.path();
             let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
-            if ending.is_some_and(|ending| ending == "spf" || ending == "mpf") && path.is_file() {
+            if ending.is_some_and(|ending| ending == "spf" || ending == "mpf" || ending == "nc") && path.is_file() {
                 files.push(path);
             }
         }

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::duration::Duration;
 use super::failure::Failure;
 use super::file::steps_of;
-use super::naming::{Known, check_captured_name, place_named, writable};
+use super::naming::{Known, check_captured_name, enable_of, place_named, writable};
 use super::operator::Plan;
 use super::passing::{Book, Next, Progress};
 use super::steps::{Action, Reader, Steps};
@@ -159,6 +159,9 @@ impl Session {
     /// The signal does not exist, the NCK writes it, or the value does not fit.
     pub fn set(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let (location, bits) = self.resolved(signal, value.into())?;
+        if let Some(location) = enable_of(&self.machine, signal) {
+            self.queue(Command::Write { location, value: 1 })?;
+        }
         self.queue(Command::Write { location, value: bits })
     }
 
@@ -168,6 +171,9 @@ impl Session {
     /// As [`Session::set`].
     pub fn force(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let (location, bits) = self.resolved(signal, value.into())?;
+        if let Some(location) = enable_of(&self.machine, signal) {
+            self.queue(Command::Force { location, value: 1 })?;
+        }
         self.queue(Command::Force { location, value: bits })
     }
 
@@ -177,6 +183,9 @@ impl Session {
     /// The signal does not exist.
     pub fn release(&mut self, signal: &str) -> Result<(), Failure> {
         let location = writable(&self.machine, signal)?;
+        if let Some(location) = enable_of(&self.machine, signal) {
+            self.queue(Command::Release { location })?;
+        }
         self.queue(Command::Release { location })
     }
 
@@ -206,7 +215,12 @@ impl Session {
     /// # Errors
     /// As [`Session::pulse`].
     pub fn pulse_all(&mut self, signals: &[&str], time: &str) -> Result<(), Failure> {
-        let locations = signals.iter().map(|signal| writable(&self.machine, signal)).collect::<Result<_, _>>()?;
+        let mut locations = Vec::with_capacity(signals.len());
+        for signal in signals {
+            locations.extend(enable_of(&self.machine, signal));
+            locations.push(writable(&self.machine, signal)?);
+        }
+        let locations = locations.into_boxed_slice();
         self.act(&Action::Pulse(locations, Duration::parse(time)?))
     }
 

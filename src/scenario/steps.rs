@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::duration::Duration;
 use super::faults::fault;
 use super::fields::{Named, duration, texts};
-use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
+use super::naming::{Known, check_captured_name, enable_of, missing_owner, place_named, written_by_others};
 use super::programs::NcPrograms;
 use super::searches::search;
 use super::written::WrittenSteps;
@@ -92,7 +92,7 @@ impl Turn {
 }
 
 /// The verbs of a step; `include` is another one.
-const VERBS: [&str; 26] = [
+const VERBS: [&str; 27] = [
     "set",
     "write",
     "force",
@@ -104,6 +104,7 @@ const VERBS: [&str; 26] = [
     "expect",
     "capture",
     "machine_data",
+    "list",
     "r_parameters",
     "program",
     "nc",
@@ -299,7 +300,7 @@ impl<'a> Reader<'a> {
                 Action::Expect(expressions.into())
             }
             "capture" => Action::Capture(self.captures(node)?),
-            "machine_data" => {
+            "machine_data" | "list" => {
                 self.reconfigured[0] = true;
                 Action::Queue(self.machine_data(node)?)
             }
@@ -375,9 +376,11 @@ impl<'a> Reader<'a> {
             .into_iter()
             .map(|named| {
                 let location = self.writable(&named.text).map_err(|problem| problem.at(&named.place))?;
-                Ok((named, location))
+                let enable = enable_of(self.machine, &named.text).map(|enable| (named.clone(), enable));
+                Ok(enable.into_iter().chain([(named, location)]))
             })
-            .collect()
+            .collect::<Result<Vec<_>, Problem>>()
+            .map(|all| all.into_iter().flatten().collect())
     }
 
     /// The location of a signal that the NCK does not write, of an axis or channel that exists.
@@ -411,6 +414,9 @@ impl<'a> Reader<'a> {
             } else {
                 signal_value(&name, &node, location, coding)
             };
+            if let Some(enable) = enable_of(self.machine, &name).filter(|_| !of_the_nck) {
+                commands.push(command(enable, 1));
+            }
             commands.push(command(location, value?));
         }
         Ok(commands.into())

@@ -119,6 +119,7 @@ impl Chosen {
         names: &Names,
         (memory, variables): (&Memory, &Variables),
     ) -> Result<(), Problem> {
+        let entry = &*names.without_alias(entry);
         let found = channel_values(entry, names, variables)?;
         let is_text = found.iter().any(|value| matches!(value, NamedValue::Program(_)));
         let fits_step = !is_text || step.is_none();

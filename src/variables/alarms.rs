@@ -64,6 +64,21 @@ pub struct RaisedAlarm {
     pub parameters: [Parameter; 4],
 }
 
+/// How often a message has been raised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MessageCount {
+    /// The number of the message.
+    pub number: AlarmNumber,
+    /// The place that it belongs to.
+    pub place: Place,
+    /// The second axis that it names.
+    pub other: Option<AxisNumber>,
+    /// It is a warning: it stops nothing.
+    pub is_warning: bool,
+    /// How often.
+    pub count: u32,
+}
+
 /// When an alarm was raised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Arrival {

@@ -91,6 +91,8 @@ impl AxisValue {
     /// The value with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
+        // What a control with masters and slaves calls the same value.
+        let name = if name == "gantry_difference" { "synchronism_difference" } else { name };
         Self::ALL.into_iter().find(|value| value.name() == name)
     }
 

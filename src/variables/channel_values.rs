@@ -25,6 +25,8 @@ pub struct ChannelValues {
     pub block: u32,
     /// The program of this block; without one, the program that is selected.
     pub program: ProgramName,
+    /// The active coupling groups: bit *n* for group *n*.
+    pub coupling_groups: u8,
 }
 
 #[cfg(test)]

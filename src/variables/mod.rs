@@ -12,7 +12,7 @@ mod named_value;
 mod place;
 mod r_parameters;
 
-pub use alarms::{AlarmNumber, Alarms, Arrival, Parameter, RaisedAlarm, ShortText, short_text};
+pub use alarms::{AlarmNumber, Alarms, Arrival, MessageCount, Parameter, RaisedAlarm, ShortText, short_text};
 pub use axis_value::{AxisValue, six_decimals};
 pub use channel_values::{ChannelValues, ProgramName, program_name};
 pub use events::{BlockName, Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
@@ -20,6 +20,8 @@ pub use happening::{DatumValue, FaultName, Happening};
 pub use named_value::{NamedValue, is_r_parameter, r_parameter};
 pub use place::{Place, axis_name, place_name};
 pub use r_parameters::RParameters;
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +64,25 @@ pub struct Variables {
     pub r_parameters: RParameters,
     /// The pending alarms.
     pub alarms: Alarms,
+    /// How many messages there have been since the scenario began; empty for a control that does not count.
+    pub messages: Vec<MessageCount>,
+    /// The parameters in effect that expressions can read by name; empty for a control without them.
+    pub parameters: Arc<Vec<ParameterValue>>,
+}
+
+/// A parameter in effect.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterValue {
+    /// Its number.
+    pub number: u32,
+    /// Its indices.
+    pub index: [u16; 2],
+    /// Its axis or channel.
+    pub place: Place,
+    /// Its value; NaN for a word.
+    pub value: f64,
+    /// Its word, if it is one.
+    pub word: Option<ShortText>,
 }
 
 /// The texts for the numbers, provided by the control.
@@ -77,6 +98,10 @@ pub trait Describe {
     /// Whether the control defines an alarm with this number.
     fn has_alarm(&self, _: AlarmNumber) -> bool {
         true
+    }
+    /// The number and the indices of a parameter of an axis or a channel, by its name. The default is a control without named parameters.
+    fn parameter(&self, _name: &str, _place: Place) -> Option<(u32, [u16; 2])> {
+        None
     }
     /// The rule with this number.
     fn rule(&self, rule: RuleNumber) -> Rule;
