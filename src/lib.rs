@@ -152,6 +152,7 @@ pub mod controls;
 pub mod expression;
 pub mod golden;
 pub mod image;
+pub mod isg;
 #[cfg(feature = "live")]
 pub mod live;
 pub mod machine;

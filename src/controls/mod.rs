@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::control::{Configuration, Examined, Texts};
 use crate::image::Profile;
+use crate::isg::{self, ParameterLists};
 use crate::sinumerik::machine_data::{files_of, is_archive};
 use crate::sinumerik::{Commissioning, TEXTS, examine as examine_archive};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text, unreadable};
@@ -42,34 +43,45 @@ struct BuiltIn {
 }
 
 /// All controls; the first is the default, for a directory with only a plant and for a file that no control recognises.
-static CONTROLS: &[Entry] = &[Entry {
-    texts: &TEXTS,
-    files: "*.tea, *.ini, *.mpf or one *.arc",
-    recognises: is_archive,
-    read: |path| Ok(Box::new(Commissioning::load(&files_of(path)?)?)),
-    examine: examine_archive,
-    read_contents: |archives| Ok(Box::new(Commissioning::read(archives)?)),
-    built_in: &[
-        BuiltIn {
-            name: "g1_example",
-            files: &[("g1_example.tea", include_bytes!("../../machine_data/g1_example/g1_example.tea"))],
-            plant: ("plant.toml", include_str!("../../machine_data/g1_example/plant.toml")),
-        },
-        BuiltIn {
-            name: "portal",
-            files: &[("portal.tea", include_bytes!("../../machine_data/portal/portal.tea"))],
-            plant: ("plant.toml", include_str!("../../machine_data/portal/plant.toml")),
-        },
-        BuiltIn {
-            name: "portal_two_channels",
-            files: &[(
-                "portal_two_channels.tea",
-                include_bytes!("../../machine_data/portal_two_channels/portal_two_channels.tea"),
-            )],
-            plant: ("plant.toml", include_str!("../../machine_data/portal_two_channels/plant.toml")),
-        },
-    ],
-}];
+static CONTROLS: &[Entry] = &[
+    Entry {
+        texts: &TEXTS,
+        files: "*.tea, *.ini, *.mpf or one *.arc",
+        recognises: is_archive,
+        read: |path| Ok(Box::new(Commissioning::load(&files_of(path)?)?)),
+        examine: examine_archive,
+        read_contents: |archives| Ok(Box::new(Commissioning::read(archives)?)),
+        built_in: &[
+            BuiltIn {
+                name: "g1_example",
+                files: &[("g1_example.tea", include_bytes!("../../machine_data/g1_example/g1_example.tea"))],
+                plant: ("plant.toml", include_str!("../../machine_data/g1_example/plant.toml")),
+            },
+            BuiltIn {
+                name: "portal",
+                files: &[("portal.tea", include_bytes!("../../machine_data/portal/portal.tea"))],
+                plant: ("plant.toml", include_str!("../../machine_data/portal/plant.toml")),
+            },
+            BuiltIn {
+                name: "portal_two_channels",
+                files: &[(
+                    "portal_two_channels.tea",
+                    include_bytes!("../../machine_data/portal_two_channels/portal_two_channels.tea"),
+                )],
+                plant: ("plant.toml", include_str!("../../machine_data/portal_two_channels/plant.toml")),
+            },
+        ],
+    },
+    Entry {
+        texts: &isg::TEXTS,
+        files: "*.lis",
+        recognises: isg::is_list,
+        read: |path| Ok(Box::new(ParameterLists::load(path)?)),
+        examine: isg::examine,
+        read_contents: |lists| Ok(Box::new(ParameterLists::read(lists)?)),
+        built_in: &[],
+    },
+];
 
 /// The texts of all controls; the first is the default.
 pub fn texts() -> impl Iterator<Item = &'static dyn Texts> {

@@ -157,6 +157,12 @@ impl Program {
         }
     }
 
+    /// The whole text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// The number of lines.
     #[must_use]
     pub fn count(&self) -> u32 {

@@ -1,0 +1,385 @@
+//! The control behind the interface: [`Control`] over the state of this module.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::hli::{HLI, ToCnc, axis_to_cnc};
+use super::lists::{Code, Lists, Message};
+use super::parameters::Clearing;
+use super::pending::of_axis;
+use super::rules::Why;
+use super::state::{Axis, AxisError, State, Units};
+use super::texts::TEXTS;
+use super::{gantry, messages};
+use crate::control::{
+    Activated, Changes, Control, ControlCommand, ControlSide, CycleTimes, Data, PlcSide, Taken, Texts, Value,
+};
+use crate::image::{Names, OverrideCoding, Signal, View};
+use crate::motion::{Feedback, Setpoint};
+use crate::nc_program::Program;
+use crate::source::{Place as FilePlace, Problem};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
+use crate::variables::{
+    AlarmNumber, EventId, Events, FaultName, Input, Parameter, Place, RaisedAlarm, SignalBit, Variables, short_text,
+};
+
+/// A control of the ISG kernel.
+#[derive(Clone, Debug)]
+pub struct Cnc(pub(super) Box<State>);
+
+impl State {
+    /// The controller starts: lists take effect, nothing is active (SG-09).
+    pub fn restart(&mut self) {
+        let event = self.log.note_plain(Place::Nck, Why::PowerOn, EventId::NONE);
+        self.power_on = event;
+        self.plc_missing = EventId::NONE;
+        self.pending.restart(event);
+        let started = self.lists.start();
+        for (_, axis) in self.axes.iter_mut() {
+            *axis = Axis { feedback: axis.feedback, ..Axis::default() };
+        }
+        self.adopt(&started, true);
+        for (number, axis) in self.axes.iter_mut().filter(|(_, axis)| axis.exists) {
+            axis.units = Units { drive_enable: true, feed_enable: true, gantry_on: false };
+            axis.homed = axis.feedback.absolute[0];
+            axis.setpoint = Setpoint::at(axis.actual());
+            if axis.homed {
+                axis.causes.homed = self.log.note_plain(Place::Axis(number), Why::AbsoluteEncoder, event);
+            }
+        }
+        self.combinations = gantry::combinations(&self.axes, event);
+        let coupled: Vec<AxisNumber> = self.combinations.iter().flat_map(|one| one.coupling.members()).collect();
+        for axis in coupled {
+            self.axes[axis].causes.coupled = self.log.note_plain(Place::Axis(axis), Why::CoupledByList, event);
+        }
+        for message in &started.messages {
+            self.raise_at_start(message);
+        }
+    }
+
+    /// A message of the start-up checks.
+    fn raise_at_start(&mut self, message: &Message) {
+        let number = match message.code {
+            Code::Number(number) => AlarmNumber(number),
+            Code::Parameter(number) => messages::of_parameter(number),
+        };
+        let axis = message.axis.and_then(|axis| self.axis_of(axis));
+        let other = message.other_axis.and_then(|axis| self.axis_of(axis));
+        let channel = message.channel.and_then(|channel| ChannelNumber::new(u8::try_from(channel).ok()?));
+        let place = axis.map(Place::Axis).or(channel.map(Place::Channel)).unwrap_or(Place::Nck);
+        let event = self.log.note_plain(place, Why::StartUpCheck, self.power_on);
+        let first = match place {
+            Place::Axis(axis) => Parameter::Axis(axis),
+            Place::Channel(channel) => Parameter::Channel(channel),
+            Place::Nck | Place::ModeGroup(_) => Parameter::None,
+        };
+        let second = other.map_or(Parameter::Text(short_text(&message.place.to_string())), Parameter::Axis);
+        let parameters = [first, second, Parameter::None, Parameter::None];
+        self.pending.raise(RaisedAlarm { number, place, parameters }, other, event);
+    }
+
+    /// Reads the control units of an axis.
+    fn read_axis(&mut self, number: AxisNumber, to_cnc: &super::hli::AxisToCnc) {
+        let axis = &self.axes[number];
+        let before = axis.units;
+        let unit = |enable: bool, command: bool, request: bool| if enable { command } else { request };
+        let now = Units {
+            drive_enable: unit(to_cnc.drive_enable_enable(), to_cnc.drive_enable_command(), true),
+            feed_enable: unit(to_cnc.feed_enable_enable(), to_cnc.feed_enable_command(), true),
+            gantry_on: unit(to_cnc.gantry_on_enable(), to_cnc.gantry_on_command(), false),
+        };
+        self.axes[number].units = now;
+        let note = |state: &mut Self, changed: bool, signal: Signal, value: bool, enable: bool| -> Option<EventId> {
+            let bit = SignalBit { place: Place::Axis(number), byte: signal.byte, bit: signal.bit };
+            let why = if enable { Why::Commanded } else { Why::Request };
+            changed.then(|| state.log.note_one(Place::Axis(number), why, Input::Bit(bit, value), EventId::NONE))
+        };
+        let (drive, feed, gantry) =
+            (axis_to_cnc::drive_enable_command, axis_to_cnc::feed_enable_command, axis_to_cnc::gantry_on_command);
+        let changed = before.drive_enable != now.drive_enable;
+        if let Some(event) = note(self, changed, drive, to_cnc.drive_enable_command(), to_cnc.drive_enable_enable()) {
+            self.axes[number].causes.drive_enable = event;
+        }
+        let changed = before.feed_enable != now.feed_enable;
+        if let Some(event) = note(self, changed, feed, to_cnc.feed_enable_command(), to_cnc.feed_enable_enable()) {
+            self.axes[number].causes.feed_enable = event;
+        }
+        let changed = before.gantry_on != now.gantry_on;
+        if let Some(event) = note(self, changed, gantry, to_cnc.gantry_on_command(), to_cnc.gantry_on_enable()) {
+            self.axes[number].causes.gantry_on = event;
+        }
+        let rises = now.gantry_on && !before.gantry_on;
+        if now.gantry_on {
+            let logical = self.axes[number].parameters.number;
+            let cause = self.axes[number].causes.gantry_on;
+            self.clear_differences(
+                |axis| {
+                    axis.parameters.number == logical
+                        && match axis.parameters.clearing {
+                            Clearing::ResetOrUnit | Clearing::Unit => true,
+                            Clearing::Edge => rises,
+                            Clearing::Never => false,
+                        }
+                },
+                cause,
+            );
+        }
+    }
+
+    /// Faults and readiness of the drives (HG-13, HG-22, HG-23).
+    fn watch_drives(&mut self) {
+        for number in self.existing() {
+            let axis = &mut self.axes[number];
+            if axis.feedback.drive_ready && !axis.was_ready {
+                axis.was_ready = true;
+                axis.causes.ready = self.log.note_plain(Place::Axis(number), Why::DriveStarted, self.power_on);
+            }
+            let is_new = axis.feedback.drive_fault && axis.error.is_none();
+            if is_new {
+                // An intelligent drive leaves its reaction to the CNC if the list says so; it brakes by itself otherwise.
+                axis.fault_stop = axis.parameters.stops_controlled && self.intelligent.contains(number);
+                let input = Input::Fault(FaultName::DriveFault);
+                let event = self.log.note_one(Place::Axis(number), Why::DriveFault, input, axis.causes.ready);
+                axis.causes.ready = event;
+                self.pending.raise(of_axis(messages::DRIVE_FAULT, number), None, event);
+                let stop = self.log.note_plain(Place::Axis(number), Why::CombinationStops, event);
+                self.axis_error(number, AxisError::Resettable, stop);
+            }
+            let axis = &mut self.axes[number];
+            if axis.fault_stop && axis.setpoint.is_at_rest() && axis.still > 0 {
+                axis.fault_stop = false;
+            }
+        }
+    }
+
+    /// The setpoints of the cycle.
+    fn decide(&mut self, to_cnc: &ToCnc) {
+        for number in self.existing() {
+            let bits = to_cnc.axes[number];
+            self.read_axis(number, &bits);
+        }
+        self.watch_drives();
+        for index in 0..self.channels.len() {
+            let bits = to_cnc.channels[self.channels[index].number];
+            self.read_channel(index, &bits);
+            self.step_channel(index);
+        }
+        self.realign();
+        self.move_setpoints();
+        self.trip_again();
+        self.finish_groups();
+    }
+
+    /// An update of a list at run time: what waits for a restart is kept (HG-02).
+    fn update(&mut self, target: &str, value: &Value) -> EventId {
+        let event = self.log.note_plain(Place::Nck, Why::ListUpdated, EventId::NONE);
+        if self.lists.set(target, value, &FilePlace::file("scenario")).is_ok() {
+            let started = self.lists.update();
+            self.adopt(&started, false);
+        }
+        event
+    }
+}
+
+impl Control for Cnc {
+    fn check(&self, command: &ControlCommand) -> Result<(), Problem> {
+        match command {
+            ControlCommand::Store { target, value } => {
+                self.0.lists.clone().set(target, value, &FilePlace::file("scenario")).map(|_| ())
+            }
+            ControlCommand::SelectProgram { path, .. } if !self.0.programs.contains_key(path) => Err(Problem::new(
+                format!("expected a program, found `{path}`"),
+                "name a program with `program` or `nc`",
+            )),
+            ControlCommand::Activate
+            | ControlCommand::SelectProgram { .. }
+            | ControlCommand::Cancel
+            | ControlCommand::PlcMissing
+            | ControlCommand::PlcRestarted
+            | ControlCommand::Written(_)
+            | ControlCommand::Fault { .. } => Ok(()),
+            ControlCommand::RParameter { .. } => Err(foreign("R parameters", "P parameters belong to their program")),
+            ControlCommand::EnterBlocks { .. } => Err(foreign("manual data input", "write `nc = \"…\"` and start it")),
+            ControlCommand::Preset { .. } => Err(foreign("PRESET", "home the axis with G74")),
+            ControlCommand::Search { .. } => Err(foreign("a block search", "start the program from its beginning")),
+            ControlCommand::FunctionGenerator(_) => Err(foreign("a function generator", "remove the step")),
+            ControlCommand::Handwheel { .. } => Err(foreign("handwheels", "write a program")),
+        }
+    }
+
+    fn begin_cycle(&mut self, cycle: u64) {
+        self.0.log.begin(cycle);
+    }
+
+    fn command(&mut self, command: &ControlCommand) -> EventId {
+        let state = &mut *self.0;
+        match command {
+            ControlCommand::Store { target, value } => state.update(target, value),
+            ControlCommand::SelectProgram { channel, path } => {
+                if let Some(channel) = state.channels.iter_mut().find(|one| one.number == *channel)
+                    && !channel.is_active()
+                {
+                    channel.selected = Some(path.clone());
+                }
+                EventId::NONE
+            }
+            ControlCommand::PlcMissing => {
+                if !state.plc_missing.is_some() {
+                    state.plc_missing = state.log.note_plain(Place::Nck, Why::PlcMissing, EventId::NONE);
+                }
+                state.plc_missing
+            }
+            ControlCommand::PlcRestarted => {
+                state.plc_missing = EventId::NONE;
+                EventId::NONE
+            }
+            ControlCommand::Fault { axis, name, begins, .. } => {
+                if *begins && *name == FaultName::MovedByHand {
+                    state.axes[*axis].tracks_once = true;
+                }
+                EventId::NONE
+            }
+            _ => EventId::NONE,
+        }
+    }
+
+    fn take_activated(&mut self) -> Vec<Activated> {
+        Vec::new()
+    }
+
+    fn decide(&mut self, plc: PlcSide<'_>, _: Changes) {
+        if let Some(to_cnc) = ToCnc::of_bytes(plc.to_nck) {
+            let to_cnc = to_cnc.clone();
+            self.0.decide(&to_cnc);
+        }
+    }
+
+    fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], _: u32, _: u32) -> Option<f64> {
+        self.0.velocity_command(axis, counts[0])
+    }
+
+    fn observe(&mut self, feedback: &PerAxis<Feedback>, _: AxisSet) {
+        for number in self.0.existing() {
+            let axis = &mut self.0.axes[number];
+            let moved = axis.feedback.encoders[0].value != feedback[number].encoders[0].value;
+            axis.still = if moved { 0 } else { axis.still.saturating_add(1) };
+            axis.feedback = feedback[number];
+        }
+        self.0.monitor();
+    }
+
+    fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, _: AxisSet) {
+        self.0.publish(out.from_nck, variables);
+    }
+
+    fn power_on(&mut self) -> EventId {
+        self.0.restart();
+        self.0.power_on
+    }
+
+    fn cycle_times(&self) -> CycleTimes {
+        CycleTimes { interpolation: self.0.cycle.0, position_control: 1 }
+    }
+
+    fn has_channel(&self, channel: ChannelNumber) -> bool {
+        self.0.channels.iter().any(|one| one.number == channel)
+    }
+
+    fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
+        self.0.axes[axis].exists.then_some(0)
+    }
+
+    fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
+        match place {
+            Place::Axis(axis) => self.0.axis_cause(axis, byte, bit),
+            Place::Channel(channel) => self.0.channel_cause(channel, byte, bit),
+            Place::Nck | Place::ModeGroup(_) => self.0.power_on,
+        }
+    }
+
+    fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        self.0.pending.cause(number, place)
+    }
+
+    fn cleared_cause(&self, _: AlarmNumber, _: Place) -> EventId {
+        self.0.pending.cleared
+    }
+
+    fn events(&self) -> &Events {
+        &self.0.log.events
+    }
+
+    fn override_coding(&self) -> OverrideCoding {
+        OverrideCoding::of(&HLI)
+    }
+
+    fn load_programs(&mut self, programs: Vec<Program>, _: Vec<String>) {
+        let programs = programs.into_iter().map(|program| (program.path(), Arc::new(program)));
+        let programs: BTreeMap<String, Arc<Program>> = programs.collect();
+        self.0.programs.extend(programs);
+    }
+
+    fn program_text(&self, path: &str, _: bool) -> Option<String> {
+        self.0.programs.get(path).map(|program| program.text().to_owned())
+    }
+
+    fn data(&self) -> &dyn Data {
+        self
+    }
+
+    fn texts(&self) -> &'static dyn Texts {
+        &TEXTS
+    }
+
+    fn is_rotary(&self, axis: AxisNumber) -> bool {
+        self.0.axes[axis].parameters.is_rotary
+    }
+
+    fn active_datum(&self, number: u32, _: Option<u8>, axis: Option<AxisNumber>) -> Option<f64> {
+        self.0.parameter_in_effect(number, axis)
+    }
+
+    fn configuration(&self, names: &Names) -> Vec<String> {
+        self.0.configuration(names)
+    }
+
+    fn taken(&self) -> Taken {
+        self.0.log.taken
+    }
+
+    fn save(&self) -> Vec<u8> {
+        postcard::to_stdvec(&self.0).unwrap_or_default()
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
+        self.0 = postcard::from_bytes(saved).map_err(|error| {
+            Problem::new(
+                format!("expected a saved control of the ISG kernel, found other bytes: {error}"),
+                "restore what this version saved",
+            )
+        })?;
+        Ok(())
+    }
+
+    fn clone_box(&self) -> Box<dyn Control> {
+        Box::new(self.clone())
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
+
+fn foreign(what: &str, cure: &str) -> Problem {
+    Problem::new(format!("this control has no {what}"), cure)
+}
+
+impl Cnc {
+    /// A control that starts with these lists.
+    pub(super) fn new(lists: Lists, cycle: crate::units::Time, lenient: bool, intelligent: AxisSet) -> Self {
+        let mut state = Box::new(State::new(lists, cycle, lenient, intelligent));
+        state.restart();
+        Self(state)
+    }
+}

@@ -1,0 +1,237 @@
+//! The hard gantry: combinations of a master and its slaves by parameter list (HG-01 to HG-29), as a policy over the coupling engine.
+
+use serde::{Deserialize, Serialize};
+
+use super::messages;
+use super::parameters::{AxisParameters, Clearing};
+use super::pending::of_axis;
+use super::rules::Why;
+use super::state::{AxesView, Axis, AxisError, State};
+use crate::motion::Limits;
+use crate::motion::coupling::{
+    BeforeReference, Coupling, CouplingEvent, Events, Follower, GroupStop, Moves, OffsetSource, Policy, Progress,
+    Reaction, Realign, Release, Target, What,
+};
+use crate::units::{AxisNumber, PerAxis, Position};
+use crate::variables::{EventId, Input, Place, Quantity};
+
+/// The reactions of both kinds of gantry: stage 1 stops until a reset, stage 2 until a restart (HG-07, SG-04).
+pub(super) const POLICY: Policy = Policy {
+    first: Reaction::Stop,
+    second: Reaction::Lock,
+    before_reference: BeforeReference::Relative,
+    release: Release::CountAnew,
+    stop: GroupStop::Leading,
+};
+
+/// A combination of a master and its slaves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Combination {
+    pub coupling: Coupling,
+    /// All slaves have CONFIG: a program may open it.
+    pub is_config: bool,
+    /// Its axes home at once, each for itself.
+    pub homes_at_once: bool,
+    /// The event with which it was opened or closed.
+    pub cause: EventId,
+}
+
+/// The combinations that the lists define, masters ascending.
+pub(super) fn combinations(axes: &PerAxis<Axis>, cause: EventId) -> Vec<Combination> {
+    let slaves_of = |master| {
+        let of_master = move |(_, axis): &(AxisNumber, &Axis)| {
+            axis.exists && axis.parameters.is_slave && axis.parameters.master == Some(master)
+        };
+        axes.iter().filter(of_master)
+    };
+    let masters = axes.iter().filter(|(_, axis)| axis.exists && axis.parameters.is_master);
+    let with_slaves = masters.filter(|(master, _)| slaves_of(*master).next().is_some());
+    with_slaves
+        .filter_map(|(master, _)| {
+            let followers = slaves_of(master).map(|(axis, slave)| Follower {
+                offset: OffsetSource::Configured(slave.parameters.offset),
+                ..Follower::new(axis)
+            });
+            let mut coupling = Coupling::new(master, POLICY, followers)?;
+            coupling.start_up(&AxesView(axes));
+            let is_config = slaves_of(master).all(|(_, slave)| slave.parameters.clearing == Clearing::Never);
+            Some(Combination { coupling, is_config, homes_at_once: false, cause })
+        })
+        .collect()
+}
+
+impl AxisParameters {
+    /// Whether the difference of a slave is monitored: not with CONFIG (O-13), before homing only with P-AXIS-00249 (HG-08).
+    fn is_monitored(&self, is_homed: bool) -> bool {
+        self.clearing != Clearing::Never && (is_homed || self.checks_without_homing)
+    }
+}
+
+impl State {
+    /// The combination of a master or slave.
+    pub fn combination_of(&self, axis: AxisNumber) -> Option<usize> {
+        self.combinations.iter().position(|one| one.coupling.members().any(|member| member == axis))
+    }
+
+    /// Whether an axis follows its master now.
+    pub fn is_coupled_slave(&self, axis: AxisNumber) -> bool {
+        self.combinations
+            .iter()
+            .any(|one| !one.coupling.is_open() && one.coupling.followers().any(|follower| follower == axis))
+    }
+
+    /// The smallest of a parameter over an axis and the slaves that follow it.
+    pub fn smallest(&self, axis: AxisNumber, of: impl Fn(&AxisParameters) -> f64) -> f64 {
+        let hard = self.combinations.iter().map(|one| &one.coupling);
+        let soft = self.channels.iter().flat_map(|channel| channel.couplings());
+        let led = hard.chain(soft).filter(|coupling| coupling.leader() == axis && !coupling.is_open());
+        let slaves = led.flat_map(Coupling::followers);
+        slaves.map(|slave| of(&self.axes[slave].parameters)).fold(of(&self.axes[axis].parameters), f64::min)
+    }
+
+    /// Starts to clear the differences that a reset, or `gantry_on`, clears (HG-12).
+    pub fn clear_differences(&mut self, triggers: impl Fn(&Axis) -> bool, cause: EventId) {
+        let Self { combinations, axes, log, .. } = self;
+        for one in combinations.iter_mut().filter(|one| one.coupling.is_closed()) {
+            let view = AxesView(axes);
+            let wants = |slave: AxisNumber| {
+                let is_absolute = axes[slave].homed && axes[one.coupling.leader()].homed;
+                let may = axes[slave].error != Some(AxisError::Locked)
+                    && (is_absolute || axes[slave].parameters.checks_without_homing);
+                let rests = axes[slave].setpoint.is_at_rest() && axes[one.coupling.leader()].setpoint.is_at_rest();
+                may && rests && axes[slave].is_powered() && triggers(&axes[slave])
+            };
+            // The distance of the setpoints is cleared: a slide that is held away from its setpoint stays there (O-15).
+            let apart = |slave| one.coupling.setpoint_misalignment(slave, &view).unwrap_or(Position::ZERO);
+            let begins: Vec<AxisNumber> =
+                one.coupling.followers().filter(|slave| wants(*slave) && apart(*slave) != Position::ZERO).collect();
+            let Some(first) = begins.first().copied() else { continue };
+            let input = Input::Length(Quantity::SynchronismDifference, first, apart(first));
+            one.cause = log.note_one(Place::Axis(first), Why::ClearingBegins, input, cause);
+            one.coupling.begin_realignment(Realign { moves: Moves::Followers, target: Target::LeaderSetpoint }, &view);
+        }
+    }
+
+    /// One cycle of clearing: commands of the slaves. Only slaves that are powered move.
+    pub fn realign(&mut self) {
+        let Self { combinations, axes, log, channels, .. } = self;
+        let hard = combinations.iter_mut().map(|one| &mut one.coupling);
+        let soft = channels.iter_mut().flat_map(|channel| channel.couplings_mut());
+        for coupling in hard.chain(soft) {
+            let limits = |axis: AxisNumber| {
+                let parameters = &axes[axis].parameters;
+                Limits { velocity: parameters.correction_velocity, acceleration: parameters.acceleration }
+            };
+            let settled = |axis: AxisNumber| axes[axis].has_settled();
+            let realigning = coupling.realign(&AxesView(axes), limits, settled, true);
+            let Some(realigning) = realigning else { continue };
+            for (axis, motion) in realigning.commands {
+                axes[axis].motion = Some(motion);
+            }
+            if let Progress::Done(_) = realigning.progress {
+                for CouplingEvent { follower, difference, .. } in realigning.events {
+                    let input = Input::Length(Quantity::SynchronismDifference, follower, difference);
+                    let event = log.note_one(Place::Axis(follower), Why::ClearingEnds, input, EventId::NONE);
+                    axes[follower].causes.motion = event;
+                }
+            }
+        }
+    }
+
+    /// Compares the differences with their limits, after the encoders (HG-07, HG-08, SG-04, SG-06).
+    pub fn monitor(&mut self) {
+        let mut found: Vec<(CouplingEvent, bool)> = Vec::new();
+        let Self { combinations, axes, channels, .. } = self;
+        let mut events = Events::new();
+        for one in combinations.iter_mut() {
+            let leader = one.coupling.leader();
+            one.coupling.set_limits(|slave| {
+                let parameters = &axes[slave].parameters;
+                let is_homed = axes[slave].homed && axes[leader].homed;
+                parameters.limits.filter(|_| parameters.is_monitored(is_homed))
+            });
+            one.coupling.compare(&AxesView(axes), &mut events);
+            found.extend(events.iter().map(|event| (*event, false)));
+        }
+        for coupling in channels.iter_mut().flat_map(|channel| channel.couplings_mut()) {
+            coupling.compare(&AxesView(axes), &mut events);
+            found.extend(events.iter().map(|event| (*event, true)));
+        }
+        // A jump beyond both limits is stage 2 alone.
+        let beyond: Vec<AxisNumber> = found
+            .iter()
+            .filter(|(event, _)| matches!(event.what, What::SecondExceeded(_)))
+            .map(|(event, _)| event.follower)
+            .collect();
+        for (event, is_soft) in found {
+            match event.what {
+                What::FirstExceeded(_) if !beyond.contains(&event.follower) => self.trip(event, is_soft, false),
+                What::SecondExceeded(_) => self.trip(event, is_soft, true),
+                _ => {}
+            }
+        }
+    }
+
+    /// A limit is exceeded.
+    fn trip(&mut self, event: CouplingEvent, is_soft: bool, is_locked: bool) {
+        let slave = event.follower;
+        let (why, number, error) = match (is_soft, is_locked) {
+            (false, false) => (Why::StageOne, messages::STAGE_1, AxisError::Resettable),
+            (false, true) => (Why::StageTwo, messages::STAGE_2, AxisError::Locked),
+            (true, false) => (Why::SoftStageOne, messages::STAGE_1, AxisError::Resettable),
+            (true, true) => (Why::SoftStageTwo, messages::STAGE_2, AxisError::Locked),
+        };
+        if self.axes[slave].error >= Some(error) {
+            return;
+        }
+        let input = Input::Length(Quantity::SynchronismDifference, slave, event.difference);
+        let cause = self.log.note_one(Place::Axis(slave), why, input, EventId::NONE);
+        self.pending.raise(of_axis(number, slave), None, cause);
+        self.axis_error(slave, error, cause);
+    }
+
+    /// An axis has an error: no axis of its combination stops alone (HG-13), and the program of its channel ends.
+    pub fn axis_error(&mut self, axis: AxisNumber, error: AxisError, cause: EventId) {
+        let members = self.coupled_with(axis);
+        for member in members {
+            let state = &mut self.axes[member];
+            if state.error < Some(error) {
+                state.error = Some(error);
+                state.causes.error = cause;
+            }
+        }
+        let channels: Vec<usize> =
+            (0..self.channels.len()).filter(|index| members_of_channel(self, *index, axis)).collect();
+        for index in channels {
+            self.abort_program(index, cause);
+        }
+    }
+
+    /// An axis with all that are coupled with it.
+    pub fn coupled_with(&self, axis: AxisNumber) -> Vec<AxisNumber> {
+        let hard = self.combinations.iter().map(|one| &one.coupling);
+        let soft = self.channels.iter().flat_map(|channel| channel.couplings());
+        let mut members = vec![axis];
+        let couplings: Vec<_> = hard.chain(soft).filter(|coupling| !coupling.is_open()).collect();
+        let mut index = 0;
+        while let Some(member) = members.get(index).copied() {
+            for coupling in &couplings {
+                if coupling.members().any(|other| other == member) {
+                    for other in coupling.members() {
+                        if !members.contains(&other) {
+                            members.push(other);
+                        }
+                    }
+                }
+            }
+            index += 1;
+        }
+        members
+    }
+}
+
+/// Whether an axis, or one that is coupled with it, is an axis of a channel.
+fn members_of_channel(state: &State, channel: usize, axis: AxisNumber) -> bool {
+    let members = state.coupled_with(axis);
+    state.channels[channel].axes.iter().any(|own| members.contains(&own.axis))
+}

@@ -1,0 +1,294 @@
+//! Homing: the run of one axis, and the order of the axes of a combination (HG-09, HG-10, HG-11, HG-30).
+//!
+//! A run with a cam goes fast to the cam, slowly off it and slowly onto it again; the zero pulse after the cam, or without one the rising
+//! edge of the cam, gives the reference. The axis then goes back to this place, so that it stands on its reference position. While an axis
+//! of a combination runs, it leads the others: nothing moves relative to anything.
+
+use serde::{Deserialize, Serialize};
+
+use super::messages;
+use super::parameters::Homing;
+use super::pending::of_axis;
+use super::rules::Why;
+use super::state::{AxesView, AxisError, State};
+use crate::motion::{Feedback, Motion};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{EventId, Input, Place, Quantity};
+
+/// Where a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Phase {
+    /// Fast to the cam.
+    ToCam,
+    /// Brakes on the cam.
+    Brakes,
+    /// Slowly off the cam.
+    OffCam,
+    /// Slowly onto the cam.
+    OntoCam,
+    /// Slowly to the zero pulse.
+    ToZeroPulse,
+    /// Back to the reference.
+    Back,
+}
+
+/// The run of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Run {
+    phase: Phase,
+    /// The setpoint at the start.
+    start: Position,
+    /// The encoder value at the reference.
+    mark: Position,
+    cause: EventId,
+}
+
+/// The axes that home one after the other, or at once: a combination, or one axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Chain {
+    members: Vec<AxisNumber>,
+    /// How many members have ended.
+    ended: usize,
+    at_once: bool,
+}
+
+/// The homing of a G74 block.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Job {
+    /// The axes that wait, by their order.
+    waiting: Vec<(i64, AxisNumber)>,
+    running: Vec<Chain>,
+    cause: EventId,
+}
+
+impl Job {
+    pub fn new(mut axes: Vec<(i64, AxisNumber)>, cause: EventId) -> Self {
+        axes.sort_by_key(|(order, _)| *order);
+        Self { waiting: axes, running: Vec::new(), cause }
+    }
+}
+
+impl Run {
+    fn begin(homing: &Homing, start: Position, feedback: &Feedback, cause: EventId) -> Self {
+        let phase = match (homing.with_cam, homing.with_zero_pulse) {
+            (true, _) if feedback.cam => Phase::Brakes,
+            (true, _) => Phase::ToCam,
+            (false, true) => Phase::ToZeroPulse,
+            (false, false) => Phase::Back,
+        };
+        Self { phase, start, mark: feedback.encoders[0].value, cause }
+    }
+
+    /// One cycle: what the axis does, and why the phase changed.
+    fn step(&mut self, homing: &Homing, feedback: &Feedback, rests: bool, shift: Position) -> (Motion, Option<Why>) {
+        let run = |velocity: f64| Motion::Run { velocity, acceleration: homing.acceleration };
+        let mut why = None;
+        match self.phase {
+            Phase::ToCam if feedback.cam => (self.phase, why) = (Phase::Brakes, Some(Why::OnCam)),
+            Phase::Brakes if rests && homing.reverses => self.phase = Phase::OffCam,
+            Phase::Brakes if rests && homing.with_zero_pulse => self.phase = Phase::ToZeroPulse,
+            Phase::Brakes if rests => self.phase = Phase::Back,
+            Phase::OffCam if !feedback.cam => (self.phase, why) = (Phase::OntoCam, Some(Why::OffCam)),
+            Phase::OntoCam if feedback.cam => {
+                self.mark = feedback.encoders[0].value;
+                let (phase, by) =
+                    if homing.with_zero_pulse { (Phase::ToZeroPulse, Why::OnCam) } else { (Phase::Back, Why::CamEdge) };
+                (self.phase, why) = (phase, Some(by));
+            }
+            Phase::ToZeroPulse => {
+                if let Some(mark) = feedback.encoders[0].zero_mark {
+                    self.mark = mark;
+                    (self.phase, why) = (Phase::Back, Some(Why::ZeroPulse));
+                }
+            }
+            Phase::ToCam | Phase::Brakes | Phase::OffCam | Phase::OntoCam | Phase::Back => {}
+        }
+        let motion = match self.phase {
+            Phase::ToCam => run(homing.direction * homing.fast),
+            Phase::Brakes => Motion::Brake { deceleration: homing.acceleration },
+            Phase::OffCam => run(-homing.direction * homing.slow),
+            Phase::OntoCam | Phase::ToZeroPulse => run(homing.direction * homing.slow),
+            Phase::Back => {
+                Motion::GoTo { target: self.mark + shift, velocity: homing.slow, acceleration: homing.acceleration }
+            }
+        };
+        (motion, why)
+    }
+}
+
+impl State {
+    /// One cycle of a G74 block; true when it has ended.
+    pub fn home(&mut self, job: &mut Job) -> bool {
+        if job.running.is_empty() {
+            let Some((order, _)) = job.waiting.first().copied() else { return true };
+            let next: Vec<AxisNumber> =
+                job.waiting.iter().filter(|(other, _)| *other == order).map(|(_, axis)| *axis).collect();
+            job.waiting.retain(|(other, _)| *other != order);
+            job.running = next.into_iter().map(|axis| self.chain(axis)).collect();
+        }
+        let cause = job.cause;
+        for chain in &mut job.running {
+            self.step_chain(chain, cause);
+        }
+        job.running.retain(|chain| chain.ended < chain.members.len());
+        job.running.is_empty() && job.waiting.is_empty()
+    }
+
+    /// Ends a homing without a reference.
+    pub fn end_homing(&mut self, job: &Job, cause: EventId) {
+        for member in job.running.iter().flat_map(|chain| &chain.members) {
+            if self.axes[*member].run.take().is_some() {
+                let event = self.log.note_plain(Place::Axis(*member), Why::HomingAborted, cause);
+                self.axes[*member].causes.homing = event;
+            }
+        }
+        for chain in &job.running {
+            self.end_chain(chain);
+        }
+    }
+
+    /// The axes that home with an axis: the master first, then its slaves in the order of their numbers.
+    fn chain(&mut self, axis: AxisNumber) -> Chain {
+        let Some(index) = self.combination_of(axis).filter(|index| !self.combinations[*index].coupling.is_open())
+        else {
+            return Chain { members: vec![axis], ended: 0, at_once: false };
+        };
+        let coupling = &self.combinations[index].coupling;
+        let runs =
+            |member: &AxisNumber| *member == coupling.leader() || !self.axes[*member].parameters.takes_masters_homing;
+        let members: Vec<AxisNumber> = coupling.members().filter(runs).collect();
+        // HG-10, HG-23: only drives that home by themselves begin at once.
+        let at_once = coupling.followers().any(|slave| self.axes[slave].parameters.homes_at_once)
+            && members.iter().all(|member| self.intelligent.contains(*member));
+        if at_once {
+            self.combinations[index].homes_at_once = true;
+            let view = AxesView(&self.axes);
+            self.combinations[index].coupling.release(&view);
+        }
+        Chain { members, ended: 0, at_once }
+    }
+
+    fn end_chain(&mut self, chain: &Chain) {
+        let Some(index) = chain.members.first().and_then(|first| self.combination_of(*first)) else { return };
+        let view = AxesView(&self.axes);
+        let one = &mut self.combinations[index];
+        if one.homes_at_once {
+            one.homes_at_once = false;
+            one.coupling.close(&view);
+        } else if !one.coupling.is_open() {
+            let leader = one.coupling.leader();
+            one.coupling.lead_with(leader);
+        }
+    }
+
+    fn step_chain(&mut self, chain: &mut Chain, cause: EventId) {
+        if chain.at_once {
+            let members = chain.members.clone();
+            let mut all = true;
+            for member in members {
+                all &= self.step_run(member, Why::HomingAtOnce, cause);
+            }
+            if all {
+                chain.ended = chain.members.len();
+                self.end_chain(chain);
+            }
+            return;
+        }
+        let Some(axis) = chain.members.get(chain.ended).copied() else { return };
+        if self.axes[axis].run.is_none()
+            && let Some(index) = self.combination_of(axis)
+            && !self.combinations[index].coupling.is_open()
+        {
+            self.combinations[index].coupling.lead_with(axis);
+        }
+        let why = if chain.ended == 0 { Why::HomingBegins } else { Why::HomingInTurn };
+        if self.step_run(axis, why, cause) {
+            chain.ended += 1;
+            if chain.ended == chain.members.len() {
+                self.end_chain(chain);
+            }
+        }
+    }
+
+    /// One cycle of the run of an axis, which begins if there is none. True when the axis is homed.
+    fn step_run(&mut self, number: AxisNumber, why: Why, cause: EventId) -> bool {
+        let axis = &mut self.axes[number];
+        let homing = axis.parameters.homing;
+        if homing.disabled {
+            return true;
+        }
+        let is_at_once = why == Why::HomingAtOnce;
+        if is_at_once && axis.run.is_none() && axis.homed && axis.causes.homed > cause {
+            return true;
+        }
+        let mut run = match axis.run {
+            Some(run) => run,
+            None => {
+                let event = self.log.note_plain(Place::Axis(number), why, cause);
+                (axis.causes.homing, axis.causes.homed) = (event, event);
+                axis.homed = false;
+                Run::begin(&homing, axis.setpoint.position, &axis.feedback, event)
+            }
+        };
+        let rests = axis.setpoint.is_at_rest();
+        let (motion, changed) = run.step(&homing, &axis.feedback, rests, axis.shift);
+        if let Some(changed) = changed {
+            let input = Input::Length(Quantity::Position, number, axis.actual());
+            run.cause = self.log.note_one(Place::Axis(number), changed, input, run.cause);
+        }
+        let travelled = (axis.setpoint.position - run.start).abs();
+        let is_too_far = axis.parameters.is_slave && homing.farthest.is_some_and(|farthest| travelled > farthest);
+        let mark = run.mark + axis.shift;
+        let arrived = run.phase == Phase::Back && rests && axis.setpoint.position == mark && axis.has_settled();
+        axis.motion = Some(motion);
+        axis.run = Some(run);
+        if is_too_far {
+            let input = Input::Length(Quantity::Distance, number, travelled);
+            let event = self.log.note_one(Place::Axis(number), Why::HomingAborted, input, run.cause);
+            self.pending.raise(of_axis(messages::HOMING_TRAVEL, number), None, event);
+            self.axis_error(number, AxisError::Resettable, event);
+            return false;
+        }
+        if !arrived {
+            return false;
+        }
+        axis.run = None;
+        let event = self.log.note_plain(Place::Axis(number), Why::Homed, run.cause);
+        self.axes[number].causes.homing = event;
+        self.refer(number, homing.position - mark, event);
+        self.refer_slaves(number, event);
+        true
+    }
+
+    /// HG-11: slaves with P-AXIS-00074 take the position of their own list when their master is homed.
+    fn refer_slaves(&mut self, master: AxisNumber, cause: EventId) {
+        let Some(index) = self.combination_of(master) else { return };
+        let coupling = &self.combinations[index].coupling;
+        if coupling.leader() != master || (coupling.is_open() && !self.combinations[index].homes_at_once) {
+            return;
+        }
+        let slaves: Vec<AxisNumber> = coupling.followers().collect();
+        let beyond = self.axes[master].actual() - self.axes[master].parameters.homing.position;
+        for slave in slaves {
+            let parameters = &self.axes[slave].parameters;
+            if parameters.takes_masters_homing {
+                let by = parameters.homing.position + beyond - self.axes[slave].actual();
+                let event = self.log.note_plain(Place::Axis(slave), Why::HomedWithMaster, cause);
+                self.refer(slave, by, event);
+            }
+        }
+    }
+
+    /// The actual value of an axis gets its reference. Nothing moves.
+    fn refer(&mut self, number: AxisNumber, by: Position, cause: EventId) {
+        let axis = &mut self.axes[number];
+        axis.shift += by;
+        axis.setpoint.shift(by);
+        axis.homed = true;
+        axis.causes.homed = cause;
+        let Self { combinations, axes, .. } = self;
+        for one in combinations {
+            one.coupling.value_shifted(number, by, &AxesView(axes));
+        }
+    }
+}

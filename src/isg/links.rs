@@ -1,0 +1,325 @@
+//! The soft gantry: coupling groups that programs define, switch on and switch off (SG-01 to SG-25), as a policy over the coupling engine.
+
+use serde::{Deserialize, Serialize};
+
+use super::channel::Channel;
+use super::gantry::POLICY;
+use super::language::{AxisReference, Form, Link, LinkOff, Pair};
+use super::messages;
+use super::parameters::{Clearing, GANTRY_BITS};
+use super::pending::of_axis;
+use super::rules::Why;
+use super::state::{AxesView, AxisError, State};
+use crate::motion::coupling::{Coupling, Follower, Moves, OffsetSource, Realign, Sign, Target, TwoStage};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm, short_text};
+
+/// Coupling groups 0 to 6: 0 is of the channel list (SG-14).
+pub(super) const GROUPS: i64 = 7;
+
+/// The pairs of a group, as they were defined.
+pub(super) type Definition = Vec<Pair>;
+
+/// An active group.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Group {
+    pub number: u16,
+    /// One for each master.
+    pub couplings: Vec<Coupling>,
+    /// A reset has switched it off; its differences are still being cleared.
+    pub ending: bool,
+}
+
+/// A refused command: the message, and its third and fourth parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Refused(pub AlarmNumber, pub Parameter, pub Parameter);
+
+impl Refused {
+    pub const fn new(number: AlarmNumber) -> Self {
+        Self(number, Parameter::None, Parameter::None)
+    }
+
+    pub const fn axis(number: AlarmNumber, axis: AxisNumber) -> Self {
+        Self(number, Parameter::Axis(axis), Parameter::None)
+    }
+
+    pub fn group(number: AlarmNumber, group: i64) -> Self {
+        Self(number, Parameter::Number(group), Parameter::None)
+    }
+}
+
+impl State {
+    /// Defines a group (SG-01, SG-02, SG-14, SG-20).
+    pub fn define_link(&mut self, index: usize, link: &Link) -> Result<(), Refused> {
+        let channel = &mut self.channels[index];
+        let number = group_number(link.group).filter(|number| *number != 0);
+        let number = number.ok_or_else(|| Refused::group(messages::GROUP_OUT_OF_RANGE, link.group))?;
+        if channel.groups.iter().any(|group| group.number == number) {
+            return Err(Refused::group(messages::GROUP_ACTIVE, link.group));
+        }
+        if link.pairs.len() > PAIRS {
+            return Err(Refused(
+                messages::NC_VALUE,
+                Parameter::Text(short_text("more than 15 pairs")),
+                Parameter::None,
+            ));
+        }
+        let named: Vec<&str> =
+            link.pairs.iter().flat_map(|pair| [&pair.slave, &pair.master]).filter_map(name_of).collect();
+        if let Some(name) = named.iter().find(|name| channel.axis_named(name).is_none()) {
+            return Err(Refused(messages::AXIS_UNKNOWN, Parameter::Text(short_text(name)), Parameter::None));
+        }
+        channel.definitions.insert(number, link.pairs.clone());
+        Ok(())
+    }
+
+    /// Switches a group on; `None` is group 0 (SG-07).
+    pub fn switch_on(&mut self, index: usize, group: Option<i64>, why: Why, cause: EventId) -> Result<(), Refused> {
+        let group = group.unwrap_or(0);
+        let out_of_range = Refused::group(messages::GROUP_OUT_OF_RANGE, group);
+        let number = group_number(group).ok_or(out_of_range)?;
+        let channel = &self.channels[index];
+        if channel.modal.compensation {
+            return Err(Refused::new(messages::LINK_WITH_COMPENSATION));
+        }
+        if channel.groups.iter().any(|active| active.number == number) {
+            return Ok(());
+        }
+        let definition = channel.definitions.get(&number).filter(|pairs| !pairs.is_empty());
+        let definition = definition.ok_or_else(|| Refused::group(messages::LINK_UNASSIGNED, group))?;
+        let pairs = self.checked_pairs(channel, definition, group)?;
+        let mut couplings: Vec<Coupling> = Vec::new();
+        let mut masters: Vec<AxisNumber> = pairs.iter().map(|(master, _)| *master).collect();
+        masters.sort_unstable();
+        masters.dedup();
+        for master in masters {
+            let followers = pairs.iter().filter(|(other, _)| *other == master).map(|(_, follower)| *follower);
+            let Some(mut coupling) = Coupling::new(master, POLICY, followers) else { continue };
+            coupling.start_up(&AxesView(&self.axes));
+            couplings.push(coupling);
+        }
+        let channel_number = channel.number;
+        let event = self.log.note_plain(Place::Channel(channel_number), why, cause);
+        for member in couplings.iter().flat_map(Coupling::members) {
+            self.axes[member].causes.coupled = event;
+        }
+        let channel = &mut self.channels[index];
+        channel.groups.push(Group { number, couplings, ending: false });
+        channel.last_group = number;
+        Ok(())
+    }
+
+    /// The pairs with their axes, or why the group cannot become active. Nothing of it does then (SG-22).
+    fn checked_pairs(
+        &self,
+        channel: &Channel,
+        definition: &[Pair],
+        group: i64,
+    ) -> Result<Vec<(AxisNumber, Follower)>, Refused> {
+        let mut pairs = Vec::with_capacity(definition.len());
+        for pair in definition {
+            let missing = |reference: &AxisReference| {
+                Refused(
+                    messages::LINK_AXIS_MISSING,
+                    Parameter::Text(short_text(&reference.to_string())),
+                    Parameter::Number(group),
+                )
+            };
+            let find =
+                |reference: &AxisReference| self.referenced(channel, reference).ok_or_else(|| missing(reference));
+            let (slave, master) = (find(&pair.slave)?, find(&pair.master)?);
+            let of_group = |number, axis| Refused(number, Parameter::Axis(axis), Parameter::Number(group));
+            if channel.index_of(slave).is_some_and(|index| index <= 2) {
+                return Err(Refused::axis(messages::SLAVE_IS_MAIN_AXIS, slave));
+            }
+            let [one, other] = [master, slave].map(|axis| &self.axes[axis].parameters);
+            if one.kind != other.kind {
+                return Err(of_group(messages::TYPES_DIFFER, slave));
+            }
+            if one.mode & !GANTRY_BITS != other.mode & !GANTRY_BITS {
+                return Err(of_group(messages::MODES_DIFFER, slave));
+            }
+            if channel.manual.contains(&slave) {
+                return Err(Refused::axis(messages::SLAVE_IN_MANUAL, slave));
+            }
+            for coupling in channel.couplings() {
+                if coupling.followers().any(|axis| axis == slave) {
+                    return Err(of_group(messages::ALREADY_SLAVE, slave));
+                }
+                if coupling.leader() == slave {
+                    return Err(of_group(messages::SLAVE_IS_MASTER, slave));
+                }
+                if coupling.followers().any(|axis| axis == master) {
+                    return Err(of_group(messages::MASTER_IS_SLAVE, master));
+                }
+            }
+            let limits = match pair.form {
+                Form::Gantry { limits: Some([first, second]) } => {
+                    Some(TwoStage::new(Some(Position::from_user(first)), Position::from_user(second)))
+                }
+                Form::Gantry { limits: None } => Some(
+                    self.axes[slave].parameters.limits.ok_or_else(|| of_group(messages::of_parameter(72), slave))?,
+                ),
+                Form::Bare | Form::Standard | Form::Factor { .. } => None,
+            };
+            let factor = if pair.form.factor() < 0 { Sign::Minus } else { Sign::Plus };
+            pairs.push((master, Follower { axis: slave, factor, offset: OffsetSource::AtActivation, limits }));
+        }
+        Ok(pairs)
+    }
+
+    fn referenced(&self, channel: &Channel, reference: &AxisReference) -> Option<AxisNumber> {
+        match reference {
+            AxisReference::Name(name) => channel.axis_named(name),
+            AxisReference::Number(number) => {
+                let axis = self.axis_of(u16::try_from(*number).ok()?)?;
+                channel.index_of(axis).map(|_| axis)
+            }
+        }
+    }
+
+    /// Switches groups off (SG-07).
+    pub fn switch_off(&mut self, index: usize, what: LinkOff, cause: EventId) -> Result<(), Refused> {
+        let channel = &self.channels[index];
+        if channel.modal.compensation {
+            return Err(Refused::new(messages::LINK_WITH_COMPENSATION));
+        }
+        let numbers: Vec<u16> = match what {
+            LinkOff::All => channel.groups.iter().map(|group| group.number).collect(),
+            LinkOff::Last => vec![channel.last_group],
+            LinkOff::Group(group) => {
+                let number = group_number(group);
+                vec![number.ok_or_else(|| Refused::group(messages::GROUP_OUT_OF_RANGE, group))?]
+            }
+        };
+        self.end_groups(index, &numbers, Why::GroupOff, cause);
+        Ok(())
+    }
+
+    /// Ends groups: their slaves are independent.
+    pub fn end_groups(&mut self, index: usize, numbers: &[u16], why: Why, cause: EventId) {
+        let channel = &mut self.channels[index];
+        let ends = |group: &Group| numbers.contains(&group.number);
+        if !channel.groups.iter().any(ends) {
+            return;
+        }
+        let event = self.log.note_plain(Place::Channel(channel.number), why, cause);
+        for group in channel.groups.iter().filter(|group| ends(group)) {
+            for member in group.couplings.iter().flat_map(Coupling::members) {
+                self.axes[member].causes.coupled = event;
+            }
+        }
+        channel.groups.retain(|group| !ends(group));
+        // The group before it counts as the last one that was switched on.
+        if numbers.contains(&channel.last_group) {
+            channel.last_group = channel.groups.last().map_or(channel.last_group, |group| group.number);
+        }
+    }
+
+    /// A reset ends all groups; differences that it clears are cleared first (SG-04, SG-09).
+    pub fn reset_groups(&mut self, index: usize, cause: EventId) {
+        let Self { channels, axes, .. } = self;
+        let channel = &mut channels[index];
+        if channel.restores_after_reset && !channel.groups.is_empty() {
+            channel.restored = channel.groups.iter().map(|group| group.number).collect();
+        }
+        for group in &mut channel.groups {
+            for coupling in group.couplings.iter_mut().filter(|coupling| coupling.is_closed()) {
+                let view = AxesView(axes);
+                let clears = coupling.followers().any(|slave| {
+                    let axis = &axes[slave];
+                    let apart = coupling.setpoint_misalignment(slave, &view);
+                    axis.error != Some(AxisError::Locked)
+                        && axis.is_powered()
+                        && axis.parameters.clearing == Clearing::ResetOrUnit
+                        && coupling.is_monitored(slave)
+                        && apart.is_some_and(|apart| apart != Position::ZERO)
+                });
+                if clears {
+                    group.ending = true;
+                    coupling
+                        .begin_realignment(Realign { moves: Moves::Followers, target: Target::LeaderSetpoint }, &view);
+                }
+            }
+        }
+        let over: Vec<u16> = channel.groups.iter().filter(|group| !group.ending).map(|group| group.number).collect();
+        self.end_groups(index, &over, Why::GroupEnds, cause);
+    }
+
+    /// Groups that a reset has switched off end when their differences are cleared.
+    pub fn finish_groups(&mut self) {
+        for index in 0..self.channels.len() {
+            let channel = &self.channels[index];
+            let cleared = |group: &&Group| group.ending && group.couplings.iter().all(Coupling::is_closed);
+            let over: Vec<u16> = channel.groups.iter().filter(cleared).map(|group| group.number).collect();
+            if !over.is_empty() {
+                let cause = channel.causes.reset;
+                self.end_groups(index, &over, Why::GroupEnds, cause);
+            }
+        }
+    }
+
+    /// The program start switches groups on again (SG-09, SG-16, SG-17, SG-18). False if that is not possible.
+    pub fn restore_groups(&mut self, index: usize, cause: EventId) -> bool {
+        for number in std::mem::take(&mut self.channels[index].restored) {
+            let channel = &self.channels[index];
+            let definition = channel.definitions.get(&number);
+            let in_configuration = |reference: &AxisReference| {
+                let axis = self.referenced(channel, reference);
+                axis.is_some_and(|axis| channel.configured.iter().any(|member| member.axis == axis))
+            };
+            let is_complete = definition.is_some_and(|pairs| {
+                pairs.iter().all(|pair| in_configuration(&pair.slave) && in_configuration(&pair.master))
+            });
+            let place = Place::Channel(channel.number);
+            let restored = if is_complete {
+                self.switch_on(index, Some(number.into()), Why::GroupRestored, cause)
+            } else {
+                Err(Refused::group(messages::LINK_NOT_RESTORED, number.into()))
+            };
+            if let Err(Refused(number, third, fourth)) = restored {
+                let parameters = [Parameter::Channel(self.channels[index].number), third, fourth, Parameter::None];
+                let event = self.log.note_plain(place, Why::Raised, cause);
+                self.pending.raise(RaisedAlarm { number, place, parameters }, None, event);
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Differences that are still beyond a limit after they were cleared stop the axes again.
+    pub fn trip_again(&mut self) {
+        let beyond: Vec<(AxisNumber, bool)> = self
+            .combinations
+            .iter()
+            .filter(|one| one.coupling.is_closed())
+            .flat_map(|one| one.coupling.differences())
+            .filter(|(axis, _, stage)| (stage.first || stage.second) && self.axes[*axis].error.is_none())
+            .map(|(axis, _, stage)| (axis, stage.second))
+            .collect();
+        for (slave, is_locked) in beyond {
+            let (number, error, why) = if is_locked {
+                (messages::STAGE_2, AxisError::Locked, Why::StageTwo)
+            } else {
+                (messages::STAGE_1, AxisError::Resettable, Why::StageOne)
+            };
+            let event = self.log.note_plain(Place::Axis(slave), why, self.axes[slave].causes.motion);
+            self.pending.raise(of_axis(number, slave), None, event);
+            self.axis_error(slave, error, event);
+        }
+    }
+}
+
+/// Pairs of a group.
+const PAIRS: usize = 15;
+
+fn group_number(group: i64) -> Option<u16> {
+    u16::try_from(group).ok().filter(|number| i64::from(*number) < GROUPS)
+}
+
+fn name_of(reference: &AxisReference) -> Option<&str> {
+    match reference {
+        AxisReference::Name(name) => Some(name),
+        AxisReference::Number(_) => None,
+    }
+}

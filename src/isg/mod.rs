@@ -1,0 +1,51 @@
+//! THE CONTROL OF THE ISG KERNEL, which TwinCAT CNC has, too: hard gantry by parameter list, soft gantry by NC command.
+//!
+//! | part | what |
+//! |---|---|
+//! | `lists/` | parameter lists as the control stores them, and the start-up checks |
+//! | `language/` | NC programs as text: blocks, expressions, commands; knows no axis |
+//! | `configuration.rs`, `parameters.rs` | from lists to axes and channels, in the units of the model |
+//! | `hli.rs` | the interface to the PLC, as bytes |
+//! | `cnc.rs` | the control behind the interface, and the order of a cycle |
+//! | `gantry.rs` | hard gantry: combinations, monitoring, clearing of differences |
+//! | `links.rs` | soft gantry: coupling groups |
+//! | `homing.rs` | homing of axes and combinations |
+//! | `channel.rs`, `operation.rs`, `program.rs`, `exchange.rs` | a channel: start, reset, path, blocks, axis exchange |
+//! | `motion.rs` | setpoints and position control |
+//! | `messages.rs`, `pending.rs`, `rules.rs`, `texts.rs` | messages and causes |
+//! | `publish.rs` | the CNC's half of the interface, and variables |
+//!
+//! Both kinds of gantry are policies over [`motion::coupling`](crate::motion::coupling), as the grouping of the SINUMERIK is. This module knows
+//! nothing of `sinumerik`.
+//!
+//! # Choices where the manuals are silent
+//!
+//! - After homing an axis goes back to the place of its reference, so that it stands on its reference position.
+//! - "In position" is a window of 0.1 µm; a program ends when its axes stand, also if somebody holds a slide away from its setpoint.
+//! - Position control has a gain of 16.67/s and no feedforward.
+//! - A movement waits for drives that start up after power on; later it needs their releases at once.
+
+mod channel;
+mod cnc;
+mod configuration;
+mod exchange;
+mod gantry;
+pub mod hli;
+mod homing;
+pub mod language;
+mod links;
+pub mod lists;
+mod messages;
+mod motion;
+mod operation;
+mod parameters;
+mod pending;
+mod program;
+mod publish;
+mod rules;
+mod state;
+mod texts;
+
+pub use cnc::Cnc;
+pub use configuration::{ParameterLists, examine, is_list};
+pub use texts::TEXTS;

@@ -1,0 +1,360 @@
+//! The channel in a cycle: NC start, NC reset, single block, errors, and the path.
+
+use super::channel::{Channel, Inputs, Member, Modal, Task, Wait};
+use super::hli::{ChannelToCnc, channel_to_cnc};
+use super::language::Interpreter;
+use super::messages;
+use super::parameters::Clearing;
+use super::pending::of_axis;
+use super::rules::Why;
+use super::state::{AxisError, State};
+use crate::motion::Motion;
+use crate::motion::coupling::Coupling;
+use crate::motion::path::{Overrides, Path, PathLimits};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm, SignalBit};
+
+impl State {
+    /// Takes the commands of the PLC to a channel.
+    pub fn read_channel(&mut self, index: usize, to_cnc: &ChannelToCnc) {
+        let channel = &mut self.channels[index];
+        let before = channel.inputs;
+        let feed_override =
+            if to_cnc.feed_override_enable() { to_cnc.feed_override_command().min(OVERRIDE) } else { 1000 };
+        channel.inputs = Inputs {
+            start: to_cnc.start(),
+            reset: to_cnc.reset(),
+            feed_hold: to_cnc.feed_hold(),
+            single_block: to_cnc.single_block(),
+            feed_override,
+        };
+        let now = channel.inputs;
+        let place = Place::Channel(channel.number);
+        if now.feed_override != before.feed_override {
+            let why = if to_cnc.feed_override_enable() { Why::Commanded } else { Why::Request };
+            let event = self.log.note_plain(place, why, EventId::NONE);
+            self.channels[index].causes.feed_override = event;
+        }
+        if now.reset && !before.reset {
+            self.reset(index);
+        } else if now.start && !before.start {
+            self.start(index);
+        }
+    }
+
+    fn bit(&self, index: usize, signal: &crate::image::Signal) -> Input {
+        let place = Place::Channel(self.channels[index].number);
+        Input::Bit(SignalBit { place, byte: signal.byte, bit: signal.bit }, true)
+    }
+
+    /// NC start: a new program, or the next block.
+    fn start(&mut self, index: usize) {
+        let input = self.bit(index, &channel_to_cnc::start);
+        let channel = &mut self.channels[index];
+        let place = Place::Channel(channel.number);
+        match channel.task {
+            Task::Stands => {
+                let event = self.log.note_one(place, Why::BlockRuns, input, channel.causes.program);
+                channel.causes.block = event;
+                channel.task = Task::Runs;
+                if let Some(path) = &mut channel.path {
+                    path.go_on();
+                }
+            }
+            Task::Idle if !channel.error => {
+                let Some(path) = channel.selected.clone() else { return };
+                let event = self.log.note_one(place, Why::ProgramStarts, input, EventId::NONE);
+                channel.begin(&path, event, self.lenient);
+                if !self.restore_groups(index, event) {
+                    self.abort_program(index, event);
+                }
+            }
+            Task::Idle | Task::Runs | Task::Aborts => {}
+        }
+    }
+
+    /// NC reset: ends the program, clears what a reset clears (HG-07, HG-12).
+    fn reset(&mut self, index: usize) {
+        let input = self.bit(index, &channel_to_cnc::reset);
+        let place = Place::Channel(self.channels[index].number);
+        let event = self.log.note_one(place, Why::ResetEnds, input, self.channels[index].causes.program);
+        self.end_job(index, event);
+        let channel = &mut self.channels[index];
+        channel.causes.reset = event;
+        if channel.is_active() {
+            channel.causes.program = event;
+            channel.task = Task::Aborts;
+        }
+        channel.interpreter = None;
+        channel.resets = true;
+    }
+
+    /// A reset clears differences and errors when the axes stand.
+    fn finish_reset(&mut self, index: usize) {
+        let event = self.channels[index].causes.reset;
+        self.channels[index].resets = false;
+        let members: Vec<AxisNumber> = self.existing().filter(|axis| self.is_of_channel(index, *axis)).collect();
+        self.clear_differences_of(&members, event);
+        self.reset_groups(index, event);
+        // O-15: what a reset does not remove stays.
+        let mut cleared = Vec::new();
+        for axis in &members {
+            let stays = self.coupled_with(*axis).iter().any(|member| self.is_beyond(*member))
+                || self.axes[*axis].feedback.drive_fault;
+            if self.axes[*axis].error == Some(AxisError::Resettable) && !stays {
+                cleared.push(*axis);
+            }
+        }
+        for axis in &cleared {
+            let cause = self.log.note_plain(Place::Axis(*axis), Why::Cleared, event);
+            let state = &mut self.axes[*axis];
+            state.error = None;
+            state.fault_stop = false;
+            state.causes.error = cause;
+        }
+        let in_error = |axis: AxisNumber| self.axes[axis].error.is_some();
+        let channel_place = Place::Channel(self.channels[index].number);
+        let stays = |alarm: &RaisedAlarm| match alarm.place {
+            Place::Axis(axis) => in_error(axis) && !messages::is_warning(alarm.number) || !members.contains(&axis),
+            place => place != channel_place && place != Place::Nck,
+        };
+        self.pending.reset(event, stays);
+        let error = members.iter().any(|axis| in_error(*axis));
+        let channel = &mut self.channels[index];
+        if channel.error && !error {
+            channel.error = false;
+            channel.causes.error = event;
+        }
+    }
+
+    /// Whether a difference is beyond a limit and is not being cleared.
+    fn is_beyond(&self, slave: AxisNumber) -> bool {
+        let hard = self.combinations.iter().map(|one| &one.coupling);
+        let soft = self.channels.iter().flat_map(|channel| channel.couplings());
+        let mut closed = hard.chain(soft).filter(|coupling| coupling.is_closed());
+        closed.any(|coupling| {
+            coupling.differences().any(|(axis, _, stage)| axis == slave && (stage.first || stage.second))
+        })
+    }
+
+    fn clear_differences_of(&mut self, members: &[AxisNumber], cause: EventId) {
+        let of_reset: Vec<AxisNumber> = members
+            .iter()
+            .copied()
+            .filter(|axis| self.axes[*axis].parameters.clearing == Clearing::ResetOrUnit)
+            .collect();
+        let numbers: Vec<u16> = of_reset.iter().map(|axis| self.axes[*axis].parameters.number).collect();
+        self.clear_differences(|axis| numbers.contains(&axis.parameters.number), cause);
+    }
+
+    /// Whether an axis belongs to a channel: itself, or the master that it follows. An axis that is in no channel is reset by the first one.
+    pub fn is_of_channel(&self, index: usize, axis: AxisNumber) -> bool {
+        let has = |channel: &Channel| {
+            self.coupled_with(axis).iter().any(|member| channel.axes.iter().any(|own| own.axis == *member))
+        };
+        let owner = self.channels.iter().position(has);
+        owner.unwrap_or(0) == index
+    }
+
+    /// Ends a program because of an error.
+    pub fn abort_program(&mut self, index: usize, cause: EventId) {
+        self.end_job(index, cause);
+        let channel = &mut self.channels[index];
+        if !channel.error {
+            channel.error = true;
+            channel.causes.error = cause;
+        }
+        if channel.is_active() {
+            channel.task = Task::Aborts;
+            channel.causes.program = self.log.note_plain(Place::Channel(channel.number), Why::ProgramAborted, cause);
+        }
+        self.channels[index].interpreter = None;
+    }
+
+    /// A homing that runs ends without a reference.
+    fn end_job(&mut self, index: usize, cause: EventId) {
+        if let Wait::Homing(job) = std::mem::take(&mut self.channels[index].wait) {
+            self.end_homing(&job, cause);
+        }
+    }
+
+    /// One cycle of a channel.
+    pub fn step_channel(&mut self, index: usize) {
+        match self.channels[index].task {
+            Task::Idle => {}
+            Task::Aborts => self.step_abort(index),
+            Task::Runs | Task::Stands => {
+                self.step_program(index);
+                self.step_path(index);
+            }
+        }
+        if self.channels[index].resets && self.channels[index].task == Task::Idle && self.stands(index) {
+            self.finish_reset(index);
+        }
+    }
+
+    /// Whether all axes of a channel rest.
+    fn stands(&self, index: usize) -> bool {
+        self.channels[index].axes.iter().all(|member| self.axes[member.axis].setpoint.is_at_rest())
+    }
+
+    /// The axes brake, each with its a_emergency after an error (HG-22), on the path after a reset.
+    fn step_abort(&mut self, index: usize) {
+        let is_error = self.channels[index].error;
+        let channel = &mut self.channels[index];
+        if is_error || channel.has_moved() {
+            if let Some(path) = &mut channel.path {
+                path.clear();
+            }
+            let axes: Vec<AxisNumber> = channel.axes.iter().map(|member| member.axis).collect();
+            for axis in axes.iter().filter(|axis| !self.channels[index].is_slave(**axis)) {
+                let deceleration = self.axes[*axis].parameters.emergency;
+                self.axes[*axis].motion = Some(Motion::Brake { deceleration });
+            }
+        } else {
+            self.step_path(index);
+            let channel = &mut self.channels[index];
+            if let Some(path) = &mut channel.path
+                && path.velocity() <= 0.0
+            {
+                path.clear();
+            }
+        }
+        if self.channels[index].has_moved() && self.stands(index) {
+            let channel = &mut self.channels[index];
+            channel.end_program(false);
+            if !channel.resets {
+                // SG-09: the end of the program ends a coupling, however it ends; a pending reset does so with its own rule.
+                let cause = channel.causes.program;
+                if !channel.error {
+                    let numbers: Vec<u16> = channel.groups.iter().map(|group| group.number).collect();
+                    self.end_groups(index, &numbers, Why::GroupEnds, cause);
+                }
+            }
+        }
+    }
+
+    /// One cycle of the path.
+    fn step_path(&mut self, index: usize) {
+        let cycle = self.cycle.0.seconds();
+        let channel = &self.channels[index];
+        let moving: Vec<AxisNumber> = channel.path_axes.iter().copied().filter(|axis| channel.moves(*axis)).collect();
+        let members: Vec<AxisNumber> = moving.iter().flat_map(|axis| self.coupled_with(*axis)).collect();
+        if let Some(axis) = members.iter().copied().find(|axis| self.lacks_releases(*axis)) {
+            let event = self.log.note_plain(Place::Axis(axis), Why::DriveNotReady, self.axes[axis].causes.ready);
+            self.pending.raise(of_axis(messages::DRIVE_NOT_READY, axis), None, event);
+            self.axis_error(axis, AxisError::Resettable, event);
+            return;
+        }
+        let is_free = members.iter().all(|axis| self.axes[*axis].units.feed_enable && self.axes[*axis].is_powered());
+        let is_clearing = members.iter().any(|axis| self.is_clearing(*axis));
+        let channel = &mut self.channels[index];
+        let goes = is_free && !is_clearing && channel.task == Task::Runs && !channel.inputs.feed_hold;
+        let factor = if goes { f64::from(channel.inputs.feed_override) / 1000.0 } else { 0.0 };
+        let Some(path) = channel.path.as_mut().filter(|path| !path.is_empty()) else { return };
+        let before = path.position();
+        let moved = path.step(Overrides { feed: factor, rapid: factor.min(1.0) }, cycle);
+        for _ in 0..moved.ended {
+            channel.blocks.pop_front();
+        }
+        let axes = channel.path_axes.clone();
+        for (place, axis) in axes.into_iter().enumerate() {
+            #[expect(clippy::cast_possible_truncation, reason = "positions are within reach; the cast saturates")]
+            let position = Position::new(moved.position[place].round() as i64);
+            let velocity = (moved.position[place] - before[place]) / cycle;
+            self.axes[axis].motion = Some(Motion::Interpolated { position, velocity });
+        }
+    }
+
+    /// Whether an axis is to move without its releases. A drive that starts up is waited for.
+    fn lacks_releases(&self, axis: AxisNumber) -> bool {
+        let axis = &self.axes[axis];
+        !axis.units.drive_enable || !axis.feedback.drive_ready && axis.was_ready
+    }
+
+    /// Whether a difference of an axis is being cleared.
+    pub fn is_clearing(&self, axis: AxisNumber) -> bool {
+        let hard = self.combinations.iter().filter(|one| !one.homes_at_once).map(|one| &one.coupling);
+        let soft = self.channels.iter().flat_map(|channel| channel.couplings());
+        let clears = |coupling: &Coupling| !coupling.is_closed() && !coupling.is_open();
+        hard.chain(soft).filter(|coupling| clears(coupling)).any(|coupling| coupling.members().any(|one| one == axis))
+    }
+
+    /// The path of a channel, at rest, with the present positions and limits of its axes.
+    pub fn place_path(&mut self, index: usize) {
+        let channel = &self.channels[index];
+        let free = channel.axes.iter().filter(|member| !channel.is_slave(member.axis));
+        let axes: Vec<AxisNumber> = free.map(|member| member.axis).take(crate::motion::path::PATH_AXES).collect();
+        let mut position = [0.0; crate::motion::path::PATH_AXES];
+        let mut limits = PathLimits {
+            velocity: [f64::INFINITY; crate::motion::path::PATH_AXES],
+            acceleration: [f64::INFINITY; crate::motion::path::PATH_AXES],
+            overload: [1.0; crate::motion::path::PATH_AXES],
+        };
+        for (place, axis) in axes.iter().enumerate() {
+            position[place] = self.axes[*axis].setpoint.position.increments() as f64;
+            // SG-12: slaves limit the path, too.
+            limits.velocity[place] = self.smallest(*axis, |parameters| parameters.velocity);
+            limits.acceleration[place] = self.smallest(*axis, |parameters| parameters.acceleration);
+        }
+        let channel = &mut self.channels[index];
+        channel.path = Some(Path::new(position, limits));
+        channel.path_axes = axes;
+    }
+
+    /// Raises a message of a channel.
+    pub fn raise_in_channel(
+        &mut self,
+        index: usize,
+        number: AlarmNumber,
+        more: [Parameter; 3],
+        other: Option<AxisNumber>,
+        cause: EventId,
+    ) -> EventId {
+        let channel = self.channels[index].number;
+        let place = Place::Channel(channel);
+        let event = self.log.note_plain(place, Why::Raised, cause);
+        let [second, third, fourth] = more;
+        let alarm = RaisedAlarm { number, place, parameters: [Parameter::Channel(channel), second, third, fourth] };
+        self.pending.raise(alarm, other, event);
+        event
+    }
+}
+
+/// The largest override: 200 %.
+const OVERRIDE: u16 = 2000;
+
+impl Channel {
+    /// A program begins.
+    fn begin(&mut self, path: &str, cause: EventId, lenient: bool) {
+        self.task = Task::Runs;
+        self.completed = false;
+        self.ended = false;
+        (self.causes.program, self.causes.block) = (cause, cause);
+        self.interpreter = Some(Interpreter::new(path, lenient));
+        (self.prepared, self.fault, self.wait) = (None, None, Wait::Nothing);
+        self.blocks.clear();
+        (self.path, self.shown) = (None, 0);
+        self.modal = Modal { motion: 0, absolute: true, plane: 17, feed: self.first_feed, compensation: false };
+        self.manual.clear();
+        if !self.retains_axes {
+            self.axes = self.configured.clone();
+        }
+    }
+
+    /// A program has ended.
+    pub fn end_program(&mut self, completed: bool) {
+        self.task = Task::Idle;
+        self.completed = completed;
+        (self.interpreter, self.prepared, self.fault, self.wait) = (None, None, None, Wait::Nothing);
+        self.blocks.clear();
+        (self.path, self.shown) = (None, 0);
+        self.modal.compensation = false;
+        self.manual.clear();
+    }
+
+    /// The axis in a place of the channel.
+    pub fn member_at(&self, index: u16) -> Option<&Member> {
+        self.axes.iter().find(|member| member.index == index)
+    }
+}

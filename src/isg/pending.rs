@@ -1,0 +1,79 @@
+//! Messages that are pending, and how many there have been since the scenario began.
+
+use serde::{Deserialize, Serialize};
+
+use super::messages;
+use crate::units::AxisNumber;
+use crate::variables::{AlarmNumber, EventId, MessageCount, Parameter, Place, RaisedAlarm};
+
+/// How many messages can be pending; more are counted and not shown.
+const PENDING: usize = 64;
+
+/// The messages.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Pending {
+    alarms: Vec<(RaisedAlarm, EventId)>,
+    /// By number and place, in this order.
+    pub counts: Vec<MessageCount>,
+    /// The event that ended the last ones.
+    pub cleared: EventId,
+}
+
+impl Pending {
+    /// Raises a message. `other` is the second axis that it names.
+    pub fn raise(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, cause: EventId) {
+        let is_warning = messages::is_warning(alarm.number);
+        let key = (alarm.number, alarm.place, other);
+        let found = self.counts.iter_mut().find(|count| (count.number, count.place, count.other) == key);
+        match found {
+            Some(count) => count.count += 1,
+            None => {
+                let (number, place, other) = key;
+                self.counts.push(MessageCount { number, place, other, is_warning, count: 1 });
+            }
+        }
+        let is_there = self.alarms.iter().any(|(pending, _)| *pending == alarm);
+        if !is_there && self.alarms.len() < PENDING {
+            self.alarms.push((alarm, cause));
+            self.alarms.sort_by_key(|(alarm, _)| (alarm.number, place_order(alarm.place)));
+        }
+    }
+
+    /// A reset takes all but those that only a restart takes.
+    pub fn reset(&mut self, cause: EventId, stays: impl Fn(&RaisedAlarm) -> bool) {
+        self.alarms.retain(|(alarm, _)| stays(alarm));
+        self.cleared = cause;
+    }
+
+    /// A restart takes all.
+    pub fn restart(&mut self, cause: EventId) {
+        self.alarms.clear();
+        self.cleared = cause;
+    }
+
+    /// The pending messages, ascending by number.
+    pub fn iter(&self) -> impl Iterator<Item = RaisedAlarm> + '_ {
+        self.alarms.iter().map(|(alarm, _)| *alarm)
+    }
+
+    /// The event behind a pending message.
+    pub fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        let found = self.alarms.iter().find(|(alarm, _)| (alarm.number, alarm.place) == (number, place));
+        found.map_or(EventId::NONE, |(_, cause)| *cause)
+    }
+}
+
+fn place_order(place: Place) -> (u8, u8) {
+    match place {
+        Place::Nck => (0, 0),
+        Place::ModeGroup(number) => (1, number.number()),
+        Place::Channel(number) => (2, number.number()),
+        Place::Axis(number) => (3, number.number()),
+    }
+}
+
+/// A message of an axis.
+pub(super) const fn of_axis(number: AlarmNumber, axis: AxisNumber) -> RaisedAlarm {
+    let parameters = [Parameter::Axis(axis), Parameter::None, Parameter::None, Parameter::None];
+    RaisedAlarm { number, place: Place::Axis(axis), parameters }
+}

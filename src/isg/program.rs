@@ -1,0 +1,475 @@
+//! A program in its channel: blocks are fetched ahead of the path, and executed in their order.
+
+use std::sync::Arc;
+
+use super::channel::{Task, Wait};
+use super::homing::Job;
+use super::language::{Block, Command, End, Environment, Fault, FaultCode, Prepared, Refusal, Variables, is_called};
+use super::links::Refused;
+use super::messages;
+use super::rules::Why;
+use super::state::State;
+use crate::motion::path::{Circle, Feed, PATH_AXES, PathBlock, Refused as PathRefused, Turn, Way};
+use crate::nc_program::Program;
+use crate::units::{AxisNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text};
+
+/// Blocks that are fetched in a cycle at most: a program that jumps for ever does not stop the time.
+const FETCHED: usize = 64;
+/// How far the radii at start and end of an arc may differ: 0.01 mm.
+const RADII: f64 = 10_000.0;
+
+/// The channel, as the language sees it.
+struct View<'a> {
+    state: &'a State,
+    channel: usize,
+    is_executed: bool,
+}
+
+impl Variables for View<'_> {
+    fn read(&self, name: &str) -> Option<f64> {
+        let channel = &self.state.channels[self.channel];
+        match name {
+            // SG-24: the group that is active or was active last; whether a group is active.
+            "V.G.AX_LINK.NR" => Some(channel.last_group.into()),
+            "V.G.AX_LINK.ACTIVE" => Some(if channel.groups.is_empty() { 0.0 } else { 1.0 }),
+            _ => None,
+        }
+    }
+
+    fn may_write(&self, name: &str, _: f64) -> Result<(), Refusal> {
+        Err(if self.read(name).is_some() { Refusal::ReadOnly } else { Refusal::Unknown })
+    }
+
+    fn write(&mut self, _: &str, _: f64) {}
+
+    fn waits(&self, name: &str) -> bool {
+        name.starts_with("V.G.AX_LINK")
+    }
+}
+
+impl Environment for View<'_> {
+    fn is_executed(&self) -> bool {
+        self.is_executed
+    }
+
+    fn is_skipped(&self, _: u8) -> bool {
+        false
+    }
+
+    fn program(&self, path: &str) -> Option<Arc<Program>> {
+        self.state.programs.get(path).cloned()
+    }
+
+    fn find_program(&self, name: &str) -> Option<Arc<Program>> {
+        self.state.programs.values().find(|program| is_called(name, program)).cloned()
+    }
+}
+
+/// A block that is refused: the message, and its second to fourth parameter after the channel and the block.
+type Outcome = Result<(), Refused>;
+
+fn value(text: &str) -> Refused {
+    Refused(messages::NC_VALUE, Parameter::Text(short_text(text)), Parameter::None)
+}
+
+impl State {
+    /// One cycle of a program that runs.
+    pub fn step_program(&mut self, index: usize) {
+        self.step_wait(index);
+        for _ in 0..FETCHED {
+            let channel = &self.channels[index];
+            if channel.task != Task::Runs || channel.wait != Wait::Nothing {
+                return;
+            }
+            let is_executed = self.is_executed(index);
+            let channel = &mut self.channels[index];
+            if channel.fetched_one && channel.inputs.single_block {
+                if is_executed {
+                    channel.fetched_one = false;
+                    channel.task = Task::Stands;
+                }
+                return;
+            }
+            if let Some(block) = channel.prepared.take() {
+                if !is_executed {
+                    channel.prepared = Some(block);
+                    return;
+                }
+                self.execute(index, &block);
+                continue;
+            }
+            if let Some(fault) = channel.fault.take() {
+                if !is_executed {
+                    channel.fault = Some(fault);
+                    return;
+                }
+                self.raise_fault(index, &fault);
+                let cause = self.channels[index].causes.block;
+                self.abort_program(index, cause);
+                return;
+            }
+            if channel.ended {
+                if is_executed && self.has_settled(index) {
+                    self.complete(index);
+                }
+                return;
+            }
+            if channel.path.as_ref().is_some_and(|path| !path.has_room()) {
+                return;
+            }
+            if !self.fetch(index, is_executed) {
+                return;
+            }
+        }
+    }
+
+    fn step_wait(&mut self, index: usize) {
+        let wait = std::mem::take(&mut self.channels[index].wait);
+        let holds = self.channels[index].inputs.feed_hold;
+        let left = match wait {
+            Wait::Nothing | Wait::Dwell(0) => Wait::Nothing,
+            Wait::Dwell(cycles) => Wait::Dwell(cycles - 1),
+            Wait::Homing(job) if holds => Wait::Homing(job),
+            Wait::Homing(mut job) => {
+                if self.home(&mut job) {
+                    Wait::Nothing
+                } else {
+                    Wait::Homing(job)
+                }
+            }
+        };
+        // An error of an axis has ended the program meanwhile.
+        match left {
+            Wait::Homing(job) if self.channels[index].task == Task::Aborts => {
+                let cause = self.channels[index].causes.error;
+                self.end_homing(&job, cause);
+            }
+            left => self.channels[index].wait = left,
+        }
+    }
+
+    /// Whether everything before has been executed.
+    fn is_executed(&self, index: usize) -> bool {
+        let channel = &self.channels[index];
+        let rests = |axis: AxisNumber| self.axes[axis].setpoint.is_at_rest() && !self.is_clearing(axis);
+        channel.has_moved() && channel.axes.iter().all(|member| rests(member.axis))
+    }
+
+    fn has_settled(&self, index: usize) -> bool {
+        let members = self.channels[index].axes.iter().flat_map(|member| self.coupled_with(member.axis));
+        members.into_iter().all(|axis| !self.axes[axis].is_powered() || self.axes[axis].has_settled())
+    }
+
+    /// The end of a program: its groups end with it (SG-09).
+    fn complete(&mut self, index: usize) {
+        let channel = &mut self.channels[index];
+        let event = self.log.note_plain(Place::Channel(channel.number), Why::ProgramEnds, channel.causes.program);
+        channel.causes.program = event;
+        channel.end_program(true);
+        let numbers: Vec<u16> = channel.groups.iter().map(|group| group.number).collect();
+        if channel.restores_after_end {
+            channel.restored.clone_from(&numbers);
+        }
+        self.end_groups(index, &numbers, Why::GroupEnds, event);
+    }
+
+    /// Fetches the next block. False if it has to wait.
+    fn fetch(&mut self, index: usize, is_executed: bool) -> bool {
+        let Some(mut interpreter) = self.channels[index].interpreter.take() else {
+            self.channels[index].ended = true;
+            return true;
+        };
+        let mut view = View { state: self, channel: index, is_executed };
+        let next = interpreter.next(&mut view);
+        let channel = &mut self.channels[index];
+        channel.interpreter = Some(interpreter);
+        match next {
+            Ok(Prepared::Block(block)) => {
+                channel.fetched_one = channel.inputs.single_block;
+                let waits = block.command.is_some() || !block.homing.is_empty() || block.dwell.is_some();
+                if waits || !block.warnings.is_empty() {
+                    channel.prepared = Some(*block);
+                } else {
+                    self.execute(index, &block);
+                }
+                true
+            }
+            Ok(Prepared::Waits(_) | Prepared::Calculated(_)) => false,
+            Ok(Prepared::Ended) => {
+                channel.ended = true;
+                true
+            }
+            Err(fault) => {
+                channel.fault = Some(fault);
+                true
+            }
+        }
+    }
+
+    /// Raises the message of the language.
+    fn raise_fault(&mut self, index: usize, fault: &Fault) {
+        let number = match fault.code {
+            FaultCode::Syntax => messages::NC_SYNTAX,
+            FaultCode::Call => messages::NC_CALL,
+            FaultCode::Value => messages::NC_VALUE,
+            FaultCode::LinkNotAlone => messages::LINK_NOT_ALONE,
+            FaultCode::LinkDenominator => messages::LINK_DENOMINATOR,
+            FaultCode::Number(number) => AlarmNumber(number),
+        };
+        let third = match fault.code {
+            FaultCode::Syntax => Parameter::Text(short_text(&format!("{}:{}", fault.line, fault.column))),
+            _ => Parameter::Text(short_text(&fault.text)),
+        };
+        let more = [Parameter::Number(fault.number().into()), third, Parameter::None];
+        let cause = self.channels[index].causes.program;
+        let event = self.raise_in_channel(index, number, more, None, cause);
+        self.channels[index].causes.block = event;
+    }
+
+    /// Executes a block. A block that is refused ends the program, and nothing of it acts.
+    fn execute(&mut self, index: usize, block: &Block) {
+        for warning in &block.warnings {
+            self.raise_fault(index, warning);
+        }
+        let number = block.origin.block();
+        if let Err(Refused(message, third, fourth)) = self.try_block(index, block) {
+            let more = [Parameter::Number(number.into()), third, fourth];
+            let other = match third {
+                Parameter::Axis(axis) => Some(axis),
+                _ => None,
+            };
+            let cause = self.channels[index].causes.program;
+            let event = self.raise_in_channel(index, message, more, other, cause);
+            self.channels[index].shown = number;
+            self.abort_program(index, event);
+        }
+    }
+
+    fn try_block(&mut self, index: usize, block: &Block) -> Outcome {
+        let mut modal = self.channels[index].modal;
+        for g in &block.g {
+            match g {
+                0..=3 => modal.motion = u16::try_from(*g).unwrap_or(0),
+                17..=19 => modal.plane = u16::try_from(*g).unwrap_or(17),
+                40 => modal.compensation = false,
+                41 | 42 => modal.compensation = true,
+                90 => modal.absolute = true,
+                91 => modal.absolute = false,
+                4 | 9 | 53..=61 | 64 | 74 | 80 | 94 | 162 | 200..=202 | 260 | 261 | 359 | 360 => {}
+                other => return Err(value(&format!("G{other} is not modelled"))),
+            }
+        }
+        if let Some(feed) = block.feed {
+            if feed < 0.0 || !feed.is_finite() {
+                return Err(value("F below 0"));
+            }
+            modal.feed = feed;
+        }
+        let has_words = !block.axes.is_empty();
+        if has_words {
+            self.append_motion(index, block, &modal)?;
+        }
+        self.channels[index].modal = modal;
+        if !has_words {
+            self.note_block(index, block.origin.block());
+        }
+        let cause = self.channels[index].causes.block;
+        if let Some(dwell) = &block.dwell {
+            let cycles = dwell.seconds / self.cycle.0.seconds();
+            if !(0.0..=1e12).contains(&cycles) {
+                return Err(value("dwell time"));
+            }
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within its limits")]
+            let whole = cycles.ceil() as u64;
+            self.channels[index].wait = Wait::Dwell(whole);
+        }
+        if !block.homing.is_empty() {
+            self.begin_homing(index, block, cause)?;
+        }
+        if let Some(command) = &block.command {
+            self.command(index, command, cause)?;
+        }
+        match block.end {
+            Some(End::Program) => self.channels[index].ended = true,
+            Some(End::Aborted) => {
+                return Err(Refused(
+                    messages::NC_CALL,
+                    Parameter::Text(short_text("M30 in a subroutine")),
+                    Parameter::None,
+                ));
+            }
+            Some(End::Subroutine) | None => {}
+        }
+        Ok(())
+    }
+
+    /// The block that runs is another one.
+    fn note_block(&mut self, index: usize, number: u32) {
+        let channel = &mut self.channels[index];
+        if channel.shown == number {
+            return;
+        }
+        channel.shown = number;
+        let mut name = crate::variables::BlockName::new();
+        let _ = std::fmt::Write::write_fmt(&mut name, format_args!("N{number}"));
+        let place = Place::Channel(channel.number);
+        channel.causes.block = self.log.note_one(place, Why::BlockRuns, Input::Block(name), channel.causes.program);
+    }
+
+    fn begin_homing(&mut self, index: usize, block: &Block, cause: EventId) -> Outcome {
+        let channel = &self.channels[index];
+        if let Some(group) = channel.groups.first() {
+            // SG-23.
+            return Err(Refused::group(messages::HOMING_WITH_GROUP, group.number.into()));
+        }
+        let mut axes = Vec::new();
+        for (name, order) in &block.homing {
+            let axis = channel.axis_named(name).ok_or_else(|| unknown(name))?;
+            axes.push((i64::from(*order), axis));
+        }
+        let members: Vec<AxisNumber> = axes.iter().flat_map(|(_, axis)| self.coupled_with(*axis)).collect();
+        if let Some(axis) = members.iter().find(|axis| !self.axes[**axis].units.drive_enable) {
+            return Err(Refused::axis(messages::DRIVE_NOT_READY, *axis));
+        }
+        self.channels[index].wait = Wait::Homing(Job::new(axes, cause));
+        Ok(())
+    }
+
+    fn command(&mut self, index: usize, command: &Command, cause: EventId) -> Outcome {
+        match command {
+            Command::Link(link) => self.define_link(index, link),
+            Command::LinkOn(group) => self.switch_on(index, *group, Why::GroupOn, cause),
+            Command::LinkOff(what) => self.switch_off(index, *what, cause),
+            Command::Gantry { is_on, targets } => self.switch_gantry(index, *is_on, targets, cause),
+            Command::CallAxis { conflicts, requests, .. } => self.call_axes(index, *conflicts, requests),
+            Command::PutAxis(targets) => self.put_axes(index, targets),
+            Command::Manual { is_on, axes } => {
+                for name in axes {
+                    let axis = self.channels[index].axis_named(name).ok_or_else(|| unknown(name))?;
+                    let manual = &mut self.channels[index].manual;
+                    manual.retain(|other| *other != axis);
+                    if *is_on {
+                        manual.push(axis);
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Appends the movement of a block to the path.
+    fn append_motion(&mut self, index: usize, block: &Block, modal: &super::channel::Modal) -> Outcome {
+        if self.channels[index].has_moved() {
+            self.place_path(index);
+            let position = self.channels[index].path.as_ref().map(|path| path.position());
+            self.channels[index].end = position.unwrap_or_default();
+        }
+        let channel = &self.channels[index];
+        let start = channel.end;
+        let mut end = start;
+        for (name, word) in &block.axes {
+            let axis = channel.axis_named(name).ok_or_else(|| unknown(name))?;
+            if channel.is_slave(axis) {
+                return Err(Refused::axis(messages::LINK_SLAVE_PROGRAMMED, axis));
+            }
+            let place = channel.path_axes.iter().position(|other| *other == axis);
+            let place = place.ok_or_else(|| value(&format!("{name} is beyond {PATH_AXES} axes")))?;
+            let way = word * Position::PER_USER_UNIT;
+            end[place] = if modal.absolute { way } else { start[place] + way };
+            if !end[place].is_finite() || end[place].abs() > FARTHEST {
+                return Err(value(&format!("{name} is too far")));
+            }
+            end[place] = end[place].round();
+        }
+        let counted = std::array::from_fn(|place| {
+            channel.path_axes.get(place).is_some_and(|axis| !self.axes[*axis].parameters.is_rotary)
+        });
+        let feed = if modal.motion == 0 {
+            Feed::Rapid
+        } else {
+            let feed = modal.feed * channel.feed_unit * Position::PER_USER_UNIT / 60.0;
+            if feed <= 0.0 {
+                return Err(value("no feed"));
+            }
+            Feed::Programmed(feed)
+        };
+        let way = match modal.motion {
+            0 | 1 => Way::line(start, end, counted),
+            turn => {
+                let circle = self.circle(index, block, modal.plane, turn, start, end)?;
+                let arc = Way::arc(start, end, circle, RADII, counted);
+                arc.map_err(|_| value("the circle does not close"))?
+            }
+        };
+        let channel = &mut self.channels[index];
+        channel.next_block += 1;
+        let number = channel.next_block;
+        let exact_stop = channel.inputs.single_block;
+        let Some(path) = &mut channel.path else { return Ok(()) };
+        match path.append(PathBlock { way, feed, exact_stop, number }, self.cycle.0.seconds()) {
+            Ok(()) => channel.blocks.push_back((number, block.origin.block())),
+            Err(PathRefused::NoWay | PathRefused::Full) => {}
+        }
+        channel.end = end;
+        Ok(())
+    }
+
+    /// The circle of G02 or G03: its centre counts from the start (G162).
+    fn circle(
+        &self,
+        index: usize,
+        block: &Block,
+        plane: u16,
+        turn: u16,
+        start: [f64; PATH_AXES],
+        end: [f64; PATH_AXES],
+    ) -> Result<Circle, Refused> {
+        let channel = &self.channels[index];
+        let (first, second) = match plane {
+            18 => (2, 0),
+            19 => (1, 2),
+            _ => (0, 1),
+        };
+        let place = |main: u16| {
+            let member = channel.member_at(main)?;
+            channel.path_axes.iter().position(|axis| *axis == member.axis)
+        };
+        let plane = place(first).zip(place(second)).ok_or_else(|| value("no axes of the plane"))?;
+        let plane = [plane.0, plane.1];
+        let clockwise = turn == 2;
+        let turn = if clockwise { Turn::Clockwise } else { Turn::Counterclockwise };
+        let centre = match block.radius {
+            Some(radius) => {
+                let [dx, dy] = plane.map(|axis| end[axis] - start[axis]);
+                let chord = (dx * dx + dy * dy).sqrt();
+                let radius_in_increments = radius.abs() * Position::PER_USER_UNIT;
+                let square = radius_in_increments * radius_in_increments - 0.25 * chord * chord;
+                if chord < 0.5 || square < -RADII * radius_in_increments {
+                    return Err(value("the circle does not close"));
+                }
+                let height = square.max(0.0).sqrt() / chord;
+                // The centre is left of the chord on a counterclockwise arc of less than half a turn.
+                let side = if clockwise == (radius < 0.0) { height } else { -height };
+                let [x, y] = plane.map(|axis| 0.5 * (start[axis] + end[axis]));
+                [x - side * dy, y + side * dx]
+            }
+            None => {
+                let way = |word: Option<f64>| word.unwrap_or(0.0) * Position::PER_USER_UNIT;
+                [
+                    start[plane[0]] + way(block.centre[usize::from(first)]),
+                    start[plane[1]] + way(block.centre[usize::from(second)]),
+                ]
+            }
+        };
+        Ok(Circle { plane, centre, turn, turns: 0 })
+    }
+}
+
+/// The farthest position of a block, in increments: ten kilometres.
+const FARTHEST: f64 = 1e13;
+
+/// An axis that the channel does not have.
+pub(super) fn unknown(name: &str) -> Refused {
+    Refused(messages::AXIS_UNKNOWN, Parameter::Text(short_text(name)), Parameter::None)
+}

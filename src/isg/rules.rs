@@ -1,0 +1,74 @@
+//! The rules that causes name, with their IDs in the requirements or in the decisions.
+
+use crate::variables::{Rule, RuleNumber};
+
+/// Generates the enumeration and the table from one list.
+macro_rules! rules {
+    ($($name:ident: $id:literal, $text:literal;)*) => {
+        /// Why something happened.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Why {
+            $(#[doc = $text] $name,)*
+        }
+
+        /// The rules, in the order of [`Why`].
+        pub(super) static RULES: &[Rule] = &[$(Rule { id: $id, text: $text },)*];
+    };
+}
+
+rules! {
+    PowerOn: "HG-02", "the controller starts: parameter lists take effect";
+    Request: "HLI", "the request of the CNC acts, because enable_w is 0";
+    Commanded: "HLI", "the command of the PLC acts, because enable_w is 1";
+    DriveStarted: "HLI", "the drive has started up and has no fault";
+    DriveFault: "HG-13", "the drive reports a fault";
+    DriveNotReady: "HLI", "the drive is not ready";
+    AbsoluteEncoder: "HG-29", "the encoder is absolute: the axis is homed without a homing run";
+    HomingBegins: "HG-30", "G74 begins the homing run of this axis";
+    HomingInTurn: "HG-09", "the homing run of this axis begins: the axis before it is homed";
+    HomingAtOnce: "HG-10", "the drives home by themselves: all axes of the combination begin in the same cycle";
+    OnCam: "HOMING", "the axis is on its reference cam";
+    OffCam: "HOMING", "the axis has left its reference cam";
+    ZeroPulse: "HOMING", "the zero pulse after the cam gives the reference";
+    CamEdge: "HOMING", "the rising edge of the cam gives the reference, without a zero pulse";
+    Homed: "HG-09", "the homing run has found the reference position";
+    HomedWithMaster: "HG-11", "the slave takes the position of its own list when its master is homed";
+    HomingAborted: "HG-09", "the homing run ends without a reference";
+    StageOne: "HG-07", "the gantry difference exceeds the resettable limit (P-AXIS-00072)";
+    StageTwo: "HG-07", "the gantry difference exceeds the limit that no reset clears (P-AXIS-00071)";
+    SoftStageOne: "SG-04", "the difference of a coupled axis exceeds limit_1";
+    SoftStageTwo: "SG-04", "the difference of a coupled axis exceeds limit_2";
+    Cleared: "HG-07", "a reset clears the error: the difference is within its limit";
+    ClearingBegins: "HG-12", "the gantry difference is cleared: the slave moves at P-AXIS-00075";
+    ClearingEnds: "HG-12", "the distance of slave and master is the offset again";
+    CombinationStops: "HG-13", "an error of one axis stops the whole combination at a_emergency";
+    CombinationOff: "HG-14", "#GANTRY OFF opens the combination";
+    CombinationOn: "HG-16", "#GANTRY ON closes the combination as the lists say";
+    CoupledByList: "HG-01", "the parameter lists couple master and slave";
+    GroupOn: "SG-07", "a coupling group is switched on";
+    GroupOff: "SG-07", "a coupling group is switched off";
+    GroupEnds: "SG-09", "program end or reset ends a coupling";
+    GroupRestored: "SG-09", "the program start switches a coupling on again (P-CHAN-00104, P-CHAN-00105)";
+    ProgramStarts: "NC", "a rising edge of NC start starts the selected program";
+    ProgramEnds: "NC", "the program has reached its end";
+    ProgramAborted: "NC", "a message ends the program";
+    ResetEnds: "NC", "a rising edge of NC reset ends the program";
+    ResetClears: "NC", "a reset takes messages";
+    Held: "NC", "feed hold, override 0, or a missing feed enable holds the movement";
+    Moves: "NC", "the axis moves";
+    Stands: "NC", "the axis stands at its setpoint";
+    LeavesPosition: "NC", "the actual value is away from the setpoint";
+    BlockRuns: "NC", "the next block of the program runs";
+    PlcMissing: "NC", "the PLC program has stopped";
+    Listed: "HG-01", "the parameter lists give this value";
+    StartUpCheck: "HG-04", "a check at the start of the controller";
+    Raised: "NC", "a block of the program raises the message";
+    RaisedByAxis: "NC", "an axis raises the message";
+    ListUpdated: "HG-02", "an entry of a parameter list is updated";
+}
+
+impl From<Why> for RuleNumber {
+    fn from(why: Why) -> Self {
+        Self(why as u16)
+    }
+}
