@@ -20,7 +20,7 @@ pub(super) enum OfControl {
 impl OfControl {
     pub(super) fn value(&self, now: &Moment<'_>) -> f64 {
         let count = |counts: &dyn Fn(&MessageCount) -> bool| -> f64 {
-            now.variables.messages.iter().filter(|count| counts(count)).map(|count| f64::from(count.count)).sum()
+            f64::from(now.variables.messages.iter().filter(|count| counts(count)).map(|count| count.count).sum::<u32>())
         };
         let is_of = |count: &MessageCount, place: &Option<Place>| {
             place.is_none_or(|place| count.place == place || count.other.map(Place::Axis) == Some(place))

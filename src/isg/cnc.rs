@@ -40,22 +40,32 @@ impl State {
             *axis = Axis { feedback: axis.feedback, ..Axis::default() };
         }
         self.adopt(&started, true);
-        for (number, axis) in self.axes.iter_mut().filter(|(_, axis)| axis.exists) {
+        for (_, axis) in self.axes.iter_mut().filter(|(_, axis)| axis.exists) {
             axis.units = Units { drive_enable: true, feed_enable: true, gantry_on: false };
-            axis.homed = axis.feedback.absolute[0];
-            axis.setpoint = Setpoint::at(axis.actual());
-            if axis.homed {
-                axis.causes.homed = self.log.note_plain(Place::Axis(number), Why::AbsoluteEncoder, event);
-            }
         }
         self.combinations = gantry::combinations(&self.axes, event);
         let coupled: Vec<AxisNumber> = self.combinations.iter().flat_map(|one| one.coupling.members()).collect();
         for axis in coupled {
             self.axes[axis].causes.coupled = self.log.note_plain(Place::Axis(axis), Why::CoupledByList, event);
         }
+        self.starts = true;
         for message in &started.messages {
             self.raise_at_start(message);
         }
+    }
+
+    /// The encoders have reported for the first time since the start.
+    fn take_first_positions(&mut self) {
+        let event = self.power_on;
+        for number in self.existing() {
+            let axis = &mut self.axes[number];
+            axis.homed = axis.feedback.absolute[0];
+            axis.setpoint = Setpoint::at(axis.actual());
+            if axis.homed {
+                axis.causes.homed = self.log.note_plain(Place::Axis(number), Why::AbsoluteEncoder, event);
+            }
+        }
+        self.start_couplings();
     }
 
     /// A message of the start-up checks.
@@ -76,7 +86,7 @@ impl State {
         };
         let second = other.map_or(Parameter::Text(short_text(&message.place.to_string())), Parameter::Axis);
         let parameters = [first, second, Parameter::None, Parameter::None];
-        self.pending.raise(RaisedAlarm { number, place, parameters }, other, event);
+        self.pending.raise_as(RaisedAlarm { number, place, parameters }, other, message.is_warning(), event);
     }
 
     /// Reads the control units of an axis.
@@ -265,6 +275,9 @@ impl Control for Cnc {
             let moved = axis.feedback.encoders[0].value != feedback[number].encoders[0].value;
             axis.still = if moved { 0 } else { axis.still.saturating_add(1) };
             axis.feedback = feedback[number];
+        }
+        if std::mem::take(&mut self.0.starts) {
+            self.0.take_first_positions();
         }
         self.0.monitor();
     }

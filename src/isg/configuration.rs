@@ -243,6 +243,7 @@ impl State {
             in_effect: std::sync::Arc::default(),
             power_on: EventId::NONE,
             plc_missing: EventId::NONE,
+            starts: false,
         }
     }
 

@@ -24,9 +24,6 @@ impl State {
                 moved.set(*axis, true);
                 continue;
             }
-            if state.tracks_once {
-                continue;
-            }
             if let Some(motion) = motion {
                 let (actual, hold) = (state.actual(), state.parameters.acceleration);
                 motion.execute(&mut state.setpoint, actual, hold, cycle);
@@ -86,8 +83,9 @@ impl State {
         }
         let actual = count + axis.shift;
         if std::mem::take(&mut axis.tracks_once) {
-            axis.setpoint = crate::motion::Setpoint::at(actual);
-            return Some(0.0);
+            // The displacement alone: a following error stays.
+            let by = count - axis.feedback.encoders[0].value;
+            axis.setpoint.shift(by);
         }
         let deviation = (axis.setpoint.position - actual).increments() as f64;
         Some(velocity_command(deviation, GAIN, axis.feedback.half_count[0], 0.0))

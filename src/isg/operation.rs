@@ -57,9 +57,6 @@ impl State {
                 let event = self.log.note_one(place, Why::BlockRuns, input, channel.causes.program);
                 channel.causes.block = event;
                 channel.task = Task::Runs;
-                if let Some(path) = &mut channel.path {
-                    path.go_on();
-                }
             }
             Task::Idle if !channel.error => {
                 let Some(path) = channel.selected.clone() else { return };
@@ -247,11 +244,21 @@ impl State {
             return;
         }
         let is_free = members.iter().all(|axis| self.axes[*axis].units.feed_enable && self.axes[*axis].is_powered());
+        let has_settled = self.has_settled(index);
         let is_clearing = members.iter().any(|axis| self.is_clearing(*axis));
         let channel = &mut self.channels[index];
         let goes = is_free && !is_clearing && channel.task == Task::Runs && !channel.inputs.feed_hold;
         let factor = if goes { f64::from(channel.inputs.feed_override) / 1000.0 } else { 0.0 };
         let Some(path) = channel.path.as_mut().filter(|path| !path.is_empty()) else { return };
+        if path.stands() {
+            // Single block: the block ends where its axes stand.
+            if !has_settled {
+                return;
+            }
+            path.go_on();
+            channel.blocks.pop_front();
+            return;
+        }
         let before = path.position();
         let moved = path.step(Overrides { feed: factor, rapid: factor.min(1.0) }, cycle);
         for _ in 0..moved.ended {

@@ -22,7 +22,11 @@ pub(super) struct Pending {
 impl Pending {
     /// Raises a message. `other` is the second axis that it names.
     pub fn raise(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, cause: EventId) {
-        let is_warning = messages::is_warning(alarm.number);
+        self.raise_as(alarm, other, messages::is_warning(alarm.number), cause);
+    }
+
+    /// Raises a message that is a warning, or an error.
+    pub fn raise_as(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, is_warning: bool, cause: EventId) {
         let key = (alarm.number, alarm.place, other);
         let found = self.counts.iter_mut().find(|count| (count.number, count.place, count.other) == key);
         match found {

@@ -156,7 +156,7 @@ impl State {
         channel.has_moved() && channel.axes.iter().all(|member| rests(member.axis))
     }
 
-    fn has_settled(&self, index: usize) -> bool {
+    pub fn has_settled(&self, index: usize) -> bool {
         let members = self.channels[index].axes.iter().flat_map(|member| self.coupled_with(member.axis));
         members.into_iter().all(|axis| !self.axes[axis].is_powered() || self.axes[axis].has_settled())
     }

@@ -99,7 +99,8 @@ impl Axis {
 
     /// Whether the position loop is closed: the drive is enabled and ready.
     pub fn is_powered(&self) -> bool {
-        self.units.drive_enable && self.feedback.drive_ready && (!self.feedback.drive_fault || self.fault_stop)
+        let has_power = if self.feedback.drive_fault { self.fault_stop } else { self.feedback.drive_ready };
+        self.units.drive_enable && has_power
     }
 
     /// Whether it stands at its setpoint.
@@ -138,6 +139,8 @@ pub(super) struct State {
     pub in_effect: Arc<Vec<ParameterValue>>,
     pub power_on: EventId,
     pub plc_missing: EventId,
+    /// The encoders have not reported since the start.
+    pub starts: bool,
 }
 
 impl State {

@@ -39,7 +39,7 @@ impl Scope for Known<'_> {
 /// The axis with this name.
 pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Problem> {
     let axes = &machine.names().axes;
-    AxisNumber::all().find(|axis| axes[*axis].as_deref() == Some(name)).ok_or_else(|| {
+    machine.names().axis(name).ok_or_else(|| {
         let known: Vec<_> = AxisNumber::all().filter_map(|axis| axes[axis].as_deref()).collect();
         let fallback = format!("machine axes are {}", known.join(", "));
         Problem::new(
