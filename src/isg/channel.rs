@@ -143,7 +143,7 @@ pub(super) struct Channel {
 
 impl Channel {
     /// A channel after the start of the controller.
-    pub fn new(number: ChannelNumber) -> Self {
+    pub(super) fn new(number: ChannelNumber) -> Self {
         Self {
             number,
             configured: Vec::new(),
@@ -182,12 +182,12 @@ impl Channel {
     }
 
     /// A program runs, is held, or is being aborted.
-    pub fn is_active(&self) -> bool {
+    pub(super) fn is_active(&self) -> bool {
         self.task != Task::Idle
     }
 
     /// Whether a movement or the program is held.
-    pub fn is_held(&self) -> bool {
+    pub(super) fn is_held(&self) -> bool {
         match self.task {
             Task::Stands => true,
             Task::Runs => self.inputs.feed_hold || self.inputs.feed_override == 0,
@@ -196,7 +196,7 @@ impl Channel {
     }
 
     /// The state of the channel on the HLI.
-    pub fn hli_state(&self) -> u8 {
+    pub(super) fn hli_state(&self) -> u8 {
         match self.task {
             _ if self.error => 6,
             _ if self.is_held() => 5,
@@ -207,7 +207,7 @@ impl Channel {
     }
 
     /// The block that runs, as it is shown.
-    pub fn block(&self) -> u32 {
+    pub(super) fn block(&self) -> u32 {
         let of_path = self.path.as_ref().and_then(|path| path.current()).map(|(block, _)| block.number);
         let shown = of_path.and_then(|number| self.blocks.iter().find(|(other, _)| *other == number));
         match self.task {
@@ -217,12 +217,12 @@ impl Channel {
     }
 
     /// Whether the path has nothing left to move.
-    pub fn has_moved(&self) -> bool {
+    pub(super) fn has_moved(&self) -> bool {
         self.path.as_ref().is_none_or(Path::is_empty)
     }
 
     /// Whether an axis moves in the present block.
-    pub fn moves(&self, axis: AxisNumber) -> bool {
+    pub(super) fn moves(&self, axis: AxisNumber) -> bool {
         let index = self.path_axes.iter().position(|other| *other == axis);
         let path = self.path.as_ref().filter(|path| !path.is_empty());
         index.zip(path).is_some_and(|(index, path)| path.direction()[index] != 0.0)
@@ -230,34 +230,34 @@ impl Channel {
 
     /// The end of the present block for an axis.
     #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
-    pub fn target(&self, axis: AxisNumber) -> Option<Position> {
+    pub(super) fn target(&self, axis: AxisNumber) -> Option<Position> {
         let index = self.path_axes.iter().position(|other| *other == axis)?;
         let (block, _) = self.path.as_ref()?.current()?;
         Some(Position::new(block.way.end()[index].round() as i64))
     }
 
     /// The couplings of the active groups.
-    pub fn couplings(&self) -> impl Iterator<Item = &Coupling> {
+    pub(super) fn couplings(&self) -> impl Iterator<Item = &Coupling> {
         self.groups.iter().flat_map(|group| &group.couplings)
     }
 
     /// The couplings of the active groups.
-    pub fn couplings_mut(&mut self) -> impl Iterator<Item = &mut Coupling> {
+    pub(super) fn couplings_mut(&mut self) -> impl Iterator<Item = &mut Coupling> {
         self.groups.iter_mut().flat_map(|group| &mut group.couplings)
     }
 
     /// Whether an axis is the slave of an active group.
-    pub fn is_slave(&self, axis: AxisNumber) -> bool {
+    pub(super) fn is_slave(&self, axis: AxisNumber) -> bool {
         self.couplings().any(|coupling| coupling.followers().any(|follower| follower == axis))
     }
 
     /// The axis of a name in NC programs.
-    pub fn axis_named(&self, name: &str) -> Option<AxisNumber> {
+    pub(super) fn axis_named(&self, name: &str) -> Option<AxisNumber> {
         self.axes.iter().find(|member| member.name == name).map(|member| member.axis)
     }
 
     /// The channel index of an axis.
-    pub fn index_of(&self, axis: AxisNumber) -> Option<u16> {
+    pub(super) fn index_of(&self, axis: AxisNumber) -> Option<u16> {
         self.axes.iter().find(|member| member.axis == axis).map(|member| member.index)
     }
 }

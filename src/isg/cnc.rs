@@ -30,7 +30,7 @@ pub struct Cnc(pub(super) Box<State>);
 
 impl State {
     /// The controller starts: lists take effect, nothing is active (SG-09).
-    pub fn restart(&mut self) {
+    pub(super) fn restart(&mut self) {
         let event = self.log.note_plain(Place::Nck, Why::PowerOn, EventId::NONE);
         self.power_on = event;
         self.plc_missing = EventId::NONE;
@@ -77,14 +77,14 @@ impl State {
         let axis = message.axis.and_then(|axis| self.axis_of(axis));
         let other = message.other_axis.and_then(|axis| self.axis_of(axis));
         let channel = message.channel.and_then(|channel| ChannelNumber::new(u8::try_from(channel).ok()?));
-        let place = axis.map(Place::Axis).or(channel.map(Place::Channel)).unwrap_or(Place::Nck);
+        let place = axis.map(Place::Axis).or_else(|| channel.map(Place::Channel)).unwrap_or(Place::Nck);
         let event = self.log.note_plain(place, Why::StartUpCheck, self.power_on);
         let first = match place {
             Place::Axis(axis) => Parameter::Axis(axis),
             Place::Channel(channel) => Parameter::Channel(channel),
             Place::Nck | Place::ModeGroup(_) => Parameter::None,
         };
-        let second = other.map_or(Parameter::Text(short_text(&message.place.to_string())), Parameter::Axis);
+        let second = other.map_or_else(|| Parameter::Text(short_text(&message.place.to_string())), Parameter::Axis);
         let parameters = [first, second, Parameter::None, Parameter::None];
         self.pending.raise_as(RaisedAlarm { number, place, parameters }, other, message.is_warning(), event);
     }

@@ -228,7 +228,7 @@ impl ParameterLists {
 
 impl State {
     /// A control that has not started.
-    pub fn new(lists: Lists, cycle: Time, lenient: bool, intelligent: AxisSet) -> Self {
+    pub(super) fn new(lists: Lists, cycle: Time, lenient: bool, intelligent: AxisSet) -> Self {
         Self {
             log: Log::default(),
             lists,
@@ -248,7 +248,7 @@ impl State {
     }
 
     /// Takes the values in effect. At a start the channels begin anew; an update at run time changes parameters alone.
-    pub fn adopt(&mut self, started: &Started, starts: bool) {
+    pub(super) fn adopt(&mut self, started: &Started, starts: bool) {
         let places = places(started);
         for axis in &started.axes {
             let Some(place) = places.get(&axis.number).copied() else { continue };
@@ -275,7 +275,7 @@ impl State {
     }
 
     /// A parameter in effect, as a number in the unit of the list.
-    pub fn parameter_in_effect(&self, number: u32, axis: Option<AxisNumber>) -> Option<f64> {
+    pub(super) fn parameter_in_effect(&self, number: u32, axis: Option<AxisNumber>) -> Option<f64> {
         let started = self.lists.update();
         let name = lists::id(number);
         let value = match axis {
@@ -291,7 +291,7 @@ impl State {
     }
 
     /// The combinations, as lines of text.
-    pub fn configuration(&self, names: &Names) -> Vec<String> {
+    pub(super) fn configuration(&self, names: &Names) -> Vec<String> {
         let name = |axis: AxisNumber| names.axes[axis].clone().unwrap_or_default();
         let line = |one: &super::gantry::Combination| {
             let slaves: Vec<String> = one.coupling.followers().map(name).collect();

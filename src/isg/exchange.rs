@@ -16,7 +16,7 @@ fn value(text: &str) -> Refused {
 
 impl State {
     /// `#GANTRY ON` and `#GANTRY OFF`.
-    pub fn switch_gantry(
+    pub(super) fn switch_gantry(
         &mut self,
         index: usize,
         on: bool,
@@ -85,7 +85,7 @@ impl State {
     }
 
     /// `#CALL AX`: all requests are checked before one acts.
-    pub fn call_axes(&mut self, index: usize, _: Conflicts, requests: &[AxisRequest]) -> Result<(), Refused> {
+    pub(super) fn call_axes(&mut self, index: usize, _: Conflicts, requests: &[AxisRequest]) -> Result<(), Refused> {
         let mut wanted: Vec<Member> = Vec::new();
         for (place, request) in requests.iter().enumerate() {
             let before = &requests[..place];
@@ -128,7 +128,7 @@ impl State {
     }
 
     /// `#PUT AX`: axes that are not there are no error.
-    pub fn put_axes(&mut self, index: usize, targets: &PutTargets) -> Result<(), Refused> {
+    pub(super) fn put_axes(&mut self, index: usize, targets: &PutTargets) -> Result<(), Refused> {
         let channel = &self.channels[index];
         let put: Vec<AxisNumber> = match targets {
             PutTargets::All => channel.axes.iter().map(|member| member.axis).collect(),

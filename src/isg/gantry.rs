@@ -69,19 +69,19 @@ impl AxisParameters {
 
 impl State {
     /// The combination of a master or slave.
-    pub fn combination_of(&self, axis: AxisNumber) -> Option<usize> {
+    pub(super) fn combination_of(&self, axis: AxisNumber) -> Option<usize> {
         self.combinations.iter().position(|one| one.coupling.members().any(|member| member == axis))
     }
 
     /// Whether an axis follows its master now.
-    pub fn is_coupled_slave(&self, axis: AxisNumber) -> bool {
+    pub(super) fn is_coupled_slave(&self, axis: AxisNumber) -> bool {
         self.combinations
             .iter()
             .any(|one| !one.coupling.is_open() && one.coupling.followers().any(|follower| follower == axis))
     }
 
     /// The smallest of a parameter over an axis and the slaves that follow it.
-    pub fn smallest(&self, axis: AxisNumber, of: impl Fn(&AxisParameters) -> f64) -> f64 {
+    pub(super) fn smallest(&self, axis: AxisNumber, of: impl Fn(&AxisParameters) -> f64) -> f64 {
         let hard = self.combinations.iter().map(|one| &one.coupling);
         let soft = self.channels.iter().flat_map(|channel| channel.couplings());
         let led = hard.chain(soft).filter(|coupling| coupling.leader() == axis && !coupling.is_open());
@@ -90,7 +90,7 @@ impl State {
     }
 
     /// Starts to clear the differences that a reset, or `gantry_on`, clears (HG-12).
-    pub fn clear_differences(&mut self, triggers: impl Fn(&Axis) -> bool, cause: EventId) {
+    pub(super) fn clear_differences(&mut self, triggers: impl Fn(&Axis) -> bool, cause: EventId) {
         let Self { combinations, axes, log, .. } = self;
         for one in combinations.iter_mut().filter(|one| one.coupling.is_closed()) {
             let view = AxesView(axes);
@@ -113,7 +113,7 @@ impl State {
     }
 
     /// One cycle of clearing: commands of the slaves. Only slaves that are powered move.
-    pub fn realign(&mut self) {
+    pub(super) fn realign(&mut self) {
         let Self { combinations, axes, log, channels, .. } = self;
         let hard = combinations.iter_mut().map(|one| &mut one.coupling);
         let soft = channels.iter_mut().flat_map(|channel| channel.couplings_mut());
@@ -139,7 +139,7 @@ impl State {
     }
 
     /// Compares the differences with their limits, after the encoders (HG-07, HG-08, SG-04, SG-06).
-    pub fn monitor(&mut self) {
+    pub(super) fn monitor(&mut self) {
         let mut found: Vec<(CouplingEvent, bool)> = Vec::new();
         let Self { combinations, axes, channels, .. } = self;
         let mut events = Events::new();
@@ -191,7 +191,7 @@ impl State {
     }
 
     /// An axis has an error: no axis of its combination stops alone (HG-13), and the program of its channel ends.
-    pub fn axis_error(&mut self, axis: AxisNumber, error: AxisError, cause: EventId) {
+    pub(super) fn axis_error(&mut self, axis: AxisNumber, error: AxisError, cause: EventId) {
         let members = self.coupled_with(axis);
         for member in members {
             let state = &mut self.axes[member];
@@ -208,7 +208,7 @@ impl State {
     }
 
     /// An axis with all that are coupled with it.
-    pub fn coupled_with(&self, axis: AxisNumber) -> Vec<AxisNumber> {
+    pub(super) fn coupled_with(&self, axis: AxisNumber) -> Vec<AxisNumber> {
         let hard = self.combinations.iter().map(|one| &one.coupling);
         let soft = self.channels.iter().flat_map(|channel| channel.couplings());
         let mut members = vec![axis];

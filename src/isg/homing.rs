@@ -62,7 +62,7 @@ pub(super) struct Job {
 }
 
 impl Job {
-    pub fn new(mut axes: Vec<(i64, AxisNumber)>, cause: EventId) -> Self {
+    pub(super) fn new(mut axes: Vec<(i64, AxisNumber)>, cause: EventId) -> Self {
         axes.sort_by_key(|(order, _)| *order);
         Self { waiting: axes, running: Vec::new(), cause }
     }
@@ -118,7 +118,7 @@ impl Run {
 
 impl State {
     /// One cycle of a G74 block; true when it has ended.
-    pub fn home(&mut self, job: &mut Job) -> bool {
+    pub(super) fn home(&mut self, job: &mut Job) -> bool {
         if job.running.is_empty() {
             let Some((order, _)) = job.waiting.first().copied() else { return true };
             let next: Vec<AxisNumber> =
@@ -135,7 +135,7 @@ impl State {
     }
 
     /// Ends a homing without a reference.
-    pub fn end_homing(&mut self, job: &Job, cause: EventId) {
+    pub(super) fn end_homing(&mut self, job: &Job, cause: EventId) {
         for member in job.running.iter().flat_map(|chain| &chain.members) {
             if self.axes[*member].run.take().is_some() {
                 let event = self.log.note_plain(Place::Axis(*member), Why::HomingAborted, cause);

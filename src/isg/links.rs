@@ -35,22 +35,22 @@ pub(super) struct Group {
 pub(super) struct Refused(pub AlarmNumber, pub Parameter, pub Parameter);
 
 impl Refused {
-    pub const fn new(number: AlarmNumber) -> Self {
+    pub(super) const fn new(number: AlarmNumber) -> Self {
         Self(number, Parameter::None, Parameter::None)
     }
 
-    pub const fn axis(number: AlarmNumber, axis: AxisNumber) -> Self {
+    pub(super) const fn axis(number: AlarmNumber, axis: AxisNumber) -> Self {
         Self(number, Parameter::Axis(axis), Parameter::None)
     }
 
-    pub fn group(number: AlarmNumber, group: i64) -> Self {
+    pub(super) fn group(number: AlarmNumber, group: i64) -> Self {
         Self(number, Parameter::Number(group), Parameter::None)
     }
 }
 
 impl State {
     /// Defines a group (SG-01, SG-02, SG-14, SG-20).
-    pub fn define_link(&mut self, index: usize, link: &Link) -> Result<(), Refused> {
+    pub(super) fn define_link(&mut self, index: usize, link: &Link) -> Result<(), Refused> {
         let channel = &mut self.channels[index];
         let number = group_number(link.group).filter(|number| *number != 0);
         let number = number.ok_or_else(|| Refused::group(messages::GROUP_OUT_OF_RANGE, link.group))?;
@@ -74,7 +74,13 @@ impl State {
     }
 
     /// Switches a group on; `None` is group 0 (SG-07).
-    pub fn switch_on(&mut self, index: usize, group: Option<i64>, why: Why, cause: EventId) -> Result<(), Refused> {
+    pub(super) fn switch_on(
+        &mut self,
+        index: usize,
+        group: Option<i64>,
+        why: Why,
+        cause: EventId,
+    ) -> Result<(), Refused> {
         let group = group.unwrap_or(0);
         let out_of_range = Refused::group(messages::GROUP_OUT_OF_RANGE, group);
         let number = group_number(group).ok_or(out_of_range)?;
@@ -179,7 +185,7 @@ impl State {
     }
 
     /// Switches groups off (SG-07).
-    pub fn switch_off(&mut self, index: usize, what: LinkOff, cause: EventId) -> Result<(), Refused> {
+    pub(super) fn switch_off(&mut self, index: usize, what: LinkOff, cause: EventId) -> Result<(), Refused> {
         let channel = &self.channels[index];
         if channel.modal.compensation {
             return Err(Refused::new(messages::LINK_WITH_COMPENSATION));
@@ -197,7 +203,7 @@ impl State {
     }
 
     /// Ends groups: their slaves are independent.
-    pub fn end_groups(&mut self, index: usize, numbers: &[u16], why: Why, cause: EventId) {
+    pub(super) fn end_groups(&mut self, index: usize, numbers: &[u16], why: Why, cause: EventId) {
         let channel = &mut self.channels[index];
         let ends = |group: &Group| numbers.contains(&group.number);
         if !channel.groups.iter().any(ends) {
@@ -217,7 +223,7 @@ impl State {
     }
 
     /// A reset ends all groups; differences that it clears are cleared first (SG-04, SG-09).
-    pub fn reset_groups(&mut self, index: usize, cause: EventId) {
+    pub(super) fn reset_groups(&mut self, index: usize, cause: EventId) {
         let Self { channels, axes, .. } = self;
         let channel = &mut channels[index];
         if channel.restores_after_reset && !channel.groups.is_empty() {
@@ -247,7 +253,7 @@ impl State {
     }
 
     /// Groups that a reset has switched off end when their differences are cleared.
-    pub fn finish_groups(&mut self) {
+    pub(super) fn finish_groups(&mut self) {
         for index in 0..self.channels.len() {
             let channel = &self.channels[index];
             let cleared = |group: &&Group| group.ending && group.couplings.iter().all(Coupling::is_closed);
@@ -260,7 +266,7 @@ impl State {
     }
 
     /// The program start switches groups on again (SG-09, SG-16, SG-17, SG-18). False if that is not possible.
-    pub fn restore_groups(&mut self, index: usize, cause: EventId) -> bool {
+    pub(super) fn restore_groups(&mut self, index: usize, cause: EventId) -> bool {
         for number in std::mem::take(&mut self.channels[index].restored) {
             let channel = &self.channels[index];
             let definition = channel.definitions.get(&number);
@@ -288,7 +294,7 @@ impl State {
     }
 
     /// Differences that are still beyond a limit after they were cleared stop the axes again.
-    pub fn trip_again(&mut self) {
+    pub(super) fn trip_again(&mut self) {
         let beyond: Vec<(AxisNumber, bool)> = self
             .combinations
             .iter()

@@ -1,6 +1,5 @@
 //! The messages of the control: numbers of published diagnoses, and names of this project where no source gives a number (O-18).
 
-use crate::control::{AlarmRow, ClearInfo};
 use crate::variables::AlarmNumber;
 
 use super::lists;

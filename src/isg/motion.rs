@@ -1,6 +1,6 @@
 //! Setpoints and position control. An axis that follows takes the movement of its master in the same cycle (HG-20, SG-03).
 
-use super::state::{AxesView, AxisError, State};
+use super::state::{AxesView, State};
 use crate::motion::{Motion, velocity_command};
 use crate::units::{AxisNumber, AxisSet, Position};
 
@@ -9,7 +9,7 @@ const GAIN: f64 = 1000.0 / 60.0;
 
 impl State {
     /// Moves the setpoints: leading axes as commanded, then those that follow.
-    pub fn move_setpoints(&mut self) {
+    pub(super) fn move_setpoints(&mut self) {
         let cycle = self.cycle.0.seconds();
         let mut moved = AxisSet::NONE;
         let existing: Vec<AxisNumber> = self.existing().collect();
@@ -76,7 +76,7 @@ impl State {
     }
 
     /// The velocity command of an axis; `None` without power.
-    pub fn velocity_command(&mut self, number: AxisNumber, count: Position) -> Option<f64> {
+    pub(super) fn velocity_command(&mut self, number: AxisNumber, count: Position) -> Option<f64> {
         let axis = &mut self.axes[number];
         if !axis.exists || !axis.is_powered() {
             return None;
@@ -91,13 +91,8 @@ impl State {
         Some(velocity_command(deviation, GAIN, axis.feedback.half_count[0], 0.0))
     }
 
-    /// Whether an axis stops because of an error.
-    pub fn is_in_error(&self, axis: AxisNumber) -> bool {
-        self.axes[axis].error >= Some(AxisError::Resettable)
-    }
-
     /// The differences at the start of the controller are those of the present positions.
-    pub fn start_couplings(&mut self) {
+    pub(super) fn start_couplings(&mut self) {
         let Self { combinations, axes, .. } = self;
         for one in combinations {
             one.coupling.start_up(&AxesView(axes));

@@ -16,7 +16,7 @@ use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlar
 
 impl State {
     /// Takes the commands of the PLC to a channel.
-    pub fn read_channel(&mut self, index: usize, to_cnc: &ChannelToCnc) {
+    pub(super) fn read_channel(&mut self, index: usize, to_cnc: &ChannelToCnc) {
         let channel = &mut self.channels[index];
         let before = channel.inputs;
         let feed_override =
@@ -145,7 +145,7 @@ impl State {
     }
 
     /// Whether an axis belongs to a channel: itself, or the master that it follows. An axis that is in no channel is reset by the first one.
-    pub fn is_of_channel(&self, index: usize, axis: AxisNumber) -> bool {
+    pub(super) fn is_of_channel(&self, index: usize, axis: AxisNumber) -> bool {
         let has = |channel: &Channel| {
             self.coupled_with(axis).iter().any(|member| channel.axes.iter().any(|own| own.axis == *member))
         };
@@ -154,7 +154,7 @@ impl State {
     }
 
     /// Ends a program because of an error.
-    pub fn abort_program(&mut self, index: usize, cause: EventId) {
+    pub(super) fn abort_program(&mut self, index: usize, cause: EventId) {
         self.end_job(index, cause);
         let channel = &mut self.channels[index];
         if !channel.error {
@@ -176,7 +176,7 @@ impl State {
     }
 
     /// One cycle of a channel.
-    pub fn step_channel(&mut self, index: usize) {
+    pub(super) fn step_channel(&mut self, index: usize) {
         match self.channels[index].task {
             Task::Idle => {}
             Task::Aborts => self.step_abort(index),
@@ -280,7 +280,7 @@ impl State {
     }
 
     /// Whether a difference of an axis is being cleared.
-    pub fn is_clearing(&self, axis: AxisNumber) -> bool {
+    pub(super) fn is_clearing(&self, axis: AxisNumber) -> bool {
         let hard = self.combinations.iter().filter(|one| !one.homes_at_once).map(|one| &one.coupling);
         let soft = self.channels.iter().flat_map(|channel| channel.couplings());
         let clears = |coupling: &Coupling| !coupling.is_closed() && !coupling.is_open();
@@ -288,7 +288,7 @@ impl State {
     }
 
     /// The path of a channel, at rest, with the present positions and limits of its axes.
-    pub fn place_path(&mut self, index: usize) {
+    pub(super) fn place_path(&mut self, index: usize) {
         let channel = &self.channels[index];
         let free = channel.axes.iter().filter(|member| !channel.is_slave(member.axis));
         let axes: Vec<AxisNumber> = free.map(|member| member.axis).take(crate::motion::path::PATH_AXES).collect();
@@ -310,7 +310,7 @@ impl State {
     }
 
     /// Raises a message of a channel.
-    pub fn raise_in_channel(
+    pub(super) fn raise_in_channel(
         &mut self,
         index: usize,
         number: AlarmNumber,
@@ -350,7 +350,7 @@ impl Channel {
     }
 
     /// A program has ended.
-    pub fn end_program(&mut self, completed: bool) {
+    pub(super) fn end_program(&mut self, completed: bool) {
         self.task = Task::Idle;
         self.completed = completed;
         (self.interpreter, self.prepared, self.fault, self.wait) = (None, None, None, Wait::Nothing);
@@ -361,7 +361,7 @@ impl Channel {
     }
 
     /// The axis in a place of the channel.
-    pub fn member_at(&self, index: u16) -> Option<&Member> {
+    pub(super) fn member_at(&self, index: u16) -> Option<&Member> {
         self.axes.iter().find(|member| member.index == index)
     }
 }

@@ -21,12 +21,12 @@ pub(super) struct Pending {
 
 impl Pending {
     /// Raises a message. `other` is the second axis that it names.
-    pub fn raise(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, cause: EventId) {
+    pub(super) fn raise(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, cause: EventId) {
         self.raise_as(alarm, other, messages::is_warning(alarm.number), cause);
     }
 
     /// Raises a message that is a warning, or an error.
-    pub fn raise_as(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, is_warning: bool, cause: EventId) {
+    pub(super) fn raise_as(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, is_warning: bool, cause: EventId) {
         let key = (alarm.number, alarm.place, other);
         let found = self.counts.iter_mut().find(|count| (count.number, count.place, count.other) == key);
         match found {
@@ -44,24 +44,24 @@ impl Pending {
     }
 
     /// A reset takes all but those that only a restart takes.
-    pub fn reset(&mut self, cause: EventId, stays: impl Fn(&RaisedAlarm) -> bool) {
+    pub(super) fn reset(&mut self, cause: EventId, stays: impl Fn(&RaisedAlarm) -> bool) {
         self.alarms.retain(|(alarm, _)| stays(alarm));
         self.cleared = cause;
     }
 
     /// A restart takes all.
-    pub fn restart(&mut self, cause: EventId) {
+    pub(super) fn restart(&mut self, cause: EventId) {
         self.alarms.clear();
         self.cleared = cause;
     }
 
     /// The pending messages, ascending by number.
-    pub fn iter(&self) -> impl Iterator<Item = RaisedAlarm> + '_ {
+    pub(super) fn iter(&self) -> impl Iterator<Item = RaisedAlarm> + '_ {
         self.alarms.iter().map(|(alarm, _)| *alarm)
     }
 
     /// The event behind a pending message.
-    pub fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
+    pub(super) fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
         let found = self.alarms.iter().find(|(alarm, _)| (alarm.number, alarm.place) == (number, place));
         found.map_or(EventId::NONE, |(_, cause)| *cause)
     }

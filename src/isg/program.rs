@@ -75,7 +75,7 @@ fn value(text: &str) -> Refused {
 
 impl State {
     /// One cycle of a program that runs.
-    pub fn step_program(&mut self, index: usize) {
+    pub(super) fn step_program(&mut self, index: usize) {
         self.step_wait(index);
         for _ in 0..FETCHED {
             let channel = &self.channels[index];
@@ -156,7 +156,7 @@ impl State {
         channel.has_moved() && channel.axes.iter().all(|member| rests(member.axis))
     }
 
-    pub fn has_settled(&self, index: usize) -> bool {
+    pub(super) fn has_settled(&self, index: usize) -> bool {
         let members = self.channels[index].axes.iter().flat_map(|member| self.coupled_with(member.axis));
         members.into_iter().all(|axis| !self.axes[axis].is_powered() || self.axes[axis].has_settled())
     }

@@ -17,7 +17,7 @@ const ERROR: u8 = 7;
 
 impl State {
     /// Writes the CNC's half.
-    pub fn publish(&mut self, out: &mut [u8], variables: &mut Variables) {
+    pub(super) fn publish(&mut self, out: &mut [u8], variables: &mut Variables) {
         let Some(from_cnc) = FromCnc::of_bytes_mut(out) else { return };
         for number in self.existing() {
             let bits = self.axis_bits(number);
@@ -129,7 +129,7 @@ impl State {
     }
 
     /// The event behind a bit of an axis.
-    pub fn axis_cause(&mut self, number: AxisNumber, byte: u16, bit: u8) -> EventId {
+    pub(super) fn axis_cause(&mut self, number: AxisNumber, byte: u16, bit: u8) -> EventId {
         let causes = self.axes[number].causes;
         let is = |signal: crate::image::Signal| (signal.byte, signal.bit) == (byte, bit);
         let cause = if is(axis_from_cnc::drive_enable_state) {
@@ -179,7 +179,7 @@ impl State {
     }
 
     /// The event behind a bit of a channel.
-    pub fn channel_cause(&self, number: ChannelNumber, byte: u16, bit: u8) -> EventId {
+    pub(super) fn channel_cause(&self, number: ChannelNumber, byte: u16, bit: u8) -> EventId {
         let Some(channel) = self.channels.iter().find(|channel| channel.number == number) else {
             return self.power_on;
         };

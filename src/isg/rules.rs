@@ -53,17 +53,14 @@ rules! {
     ProgramEnds: "NC", "the program has reached its end";
     ProgramAborted: "NC", "a message ends the program";
     ResetEnds: "NC", "a rising edge of NC reset ends the program";
-    ResetClears: "NC", "a reset takes messages";
     Held: "NC", "feed hold, override 0, or a missing feed enable holds the movement";
     Moves: "NC", "the axis moves";
     Stands: "NC", "the axis stands at its setpoint";
     LeavesPosition: "NC", "the actual value is away from the setpoint";
     BlockRuns: "NC", "the next block of the program runs";
     PlcMissing: "NC", "the PLC program has stopped";
-    Listed: "HG-01", "the parameter lists give this value";
     StartUpCheck: "HG-04", "a check at the start of the controller";
     Raised: "NC", "a block of the program raises the message";
-    RaisedByAxis: "NC", "an axis raises the message";
     ListUpdated: "HG-02", "an entry of a parameter list is updated";
 }
 

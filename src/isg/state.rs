@@ -88,28 +88,28 @@ pub(super) struct Axis {
 
 impl Axis {
     /// The actual value.
-    pub fn actual(&self) -> Position {
+    pub(super) fn actual(&self) -> Position {
         self.feedback.encoders[0].value + self.shift
     }
 
     /// Setpoint minus actual value.
-    pub fn following_error(&self) -> Position {
+    pub(super) fn following_error(&self) -> Position {
         self.setpoint.position - self.actual()
     }
 
     /// Whether the position loop is closed: the drive is enabled and ready.
-    pub fn is_powered(&self) -> bool {
+    pub(super) fn is_powered(&self) -> bool {
         let has_power = if self.feedback.drive_fault { self.fault_stop } else { self.feedback.drive_ready };
         self.units.drive_enable && has_power
     }
 
     /// Whether it stands at its setpoint.
-    pub fn is_in_position(&self) -> bool {
+    pub(super) fn is_in_position(&self) -> bool {
         self.setpoint.is_at_rest() && self.following_error().abs() <= IN_POSITION
     }
 
     /// Whether it stands where it will stay: at its setpoint, or held away from it.
-    pub fn has_settled(&self) -> bool {
+    pub(super) fn has_settled(&self) -> bool {
         self.setpoint.is_at_rest() && (self.is_in_position() || self.still >= STILL)
     }
 }
@@ -145,13 +145,13 @@ pub(super) struct State {
 
 impl State {
     /// The axes of the machine.
-    pub fn existing(&self) -> impl Iterator<Item = AxisNumber> + use<> {
+    pub(super) fn existing(&self) -> impl Iterator<Item = AxisNumber> + use<> {
         let exists: AxisSet = self.axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect();
         exists.iter()
     }
 
     /// The axis with this logical number.
-    pub fn axis_of(&self, number: u16) -> Option<AxisNumber> {
+    pub(super) fn axis_of(&self, number: u16) -> Option<AxisNumber> {
         self.axes.iter().find(|(_, axis)| axis.exists && axis.parameters.number == number).map(|(axis, _)| axis)
     }
 }
