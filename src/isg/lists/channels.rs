@@ -3,7 +3,7 @@
 //! Decisions:
 //!
 //! - Without P-CHAN-00003, all axes of the list belong to the channel. With it, that many, gaps in the index not counted; another number
-//!   of axes is an error, and the smaller number acts.
+//!   of axes is an error, and the smaller number acts. A gantry slave is an error also beyond that number.
 //! - A gantry slave in a channel (21020), an axis with the number 0, and an axis that another channel or index has, are left out.
 //! - Group 0: pairs without both numbers do not exist; with one of them they are skipped (20438), as are a slave that is its own master
 //!   (20440), a slave of an earlier pair (20441), and an axis that an earlier pair has in the other role (20442). Whether the axes are in
@@ -40,11 +40,16 @@ const fn logical_number(j: u16) -> Key {
 
 /// The indices and logical numbers of the axes that a list gives to its channel, before any check.
 pub(super) fn listed(list: &List) -> Vec<(u16, u16)> {
+    let most = list.active.get(&COUNT).and_then(|entry| entry.value.whole());
+    let most = most.and_then(|most| usize::try_from(most).ok()).unwrap_or(usize::MAX);
+    all(list).into_iter().take(most).collect()
+}
+
+/// The indices and logical numbers of all axes of a list, also of those beyond P-CHAN-00003.
+fn all(list: &List) -> Vec<(u16, u16)> {
     let is_there = |j: &u16| list.active.contains_key(&name(*j)) || list.active.contains_key(&logical_number(*j));
     let number = |j| list.active.get(&logical_number(j)).and_then(|entry| entry.value.whole()).unwrap_or(0);
-    let axes = (0..MOST_CHANNEL_AXES).filter(is_there).map(|j| (j, u16::try_from(number(j)).unwrap_or(0)));
-    let most = list.active.get(&COUNT).and_then(|entry| entry.value.whole());
-    axes.take(most.and_then(|most| usize::try_from(most).ok()).unwrap_or(usize::MAX)).collect()
+    (0..MOST_CHANNEL_AXES).filter(is_there).map(|j| (j, u16::try_from(number(j)).unwrap_or(0))).collect()
 }
 
 /// Checks a channel. `owners` has the channel of each axis that an earlier channel took; this one adds its own.
@@ -95,23 +100,20 @@ fn channel_axes(
     owners: &mut BTreeMap<u16, u16>,
     messages: &mut Vec<Message>,
 ) -> Vec<ChannelAxis> {
-    let listed = listed(draft.list);
-    let all =
-        (0..MOST_CHANNEL_AXES).filter(|j| draft.is_written(logical_number(*j)) || draft.is_written(name(*j))).count();
-    let count = i64::try_from(all).unwrap_or(0);
-    if draft.is_written(COUNT) && draft.whole(COUNT) != count {
-        let used = draft.whole(COUNT).min(count);
-        messages.push(draft.out_of_range(
-            COUNT,
-            &format!("{count}, the number of axes in the list"),
-            &used.to_string(),
-        ));
+    let (all, count) = (all(draft.list), listed(draft.list).len());
+    let there = i64::try_from(all.len()).unwrap_or(0);
+    if draft.is_written(COUNT) && draft.whole(COUNT) != there {
+        let allowed = format!("{there}, the number of axes in the list");
+        messages.push(draft.out_of_range(COUNT, &allowed, &count.to_string()));
     }
-    draft.set_whole(COUNT, i64::try_from(listed.len()).unwrap_or(0));
+    draft.set_whole(COUNT, i64::try_from(count).unwrap_or(0));
     let mut own: Vec<ChannelAxis> = Vec::new();
-    for (j, number) in listed {
+    for (place, (j, number)) in all.into_iter().enumerate() {
         let key = logical_number(j);
         let Some(known) = axes.get(&number) else {
+            if place >= count {
+                continue;
+            }
             messages.push(draft.out_of_range(key, "the logical number of an axis that has a list", "no axis"));
             continue;
         };
@@ -119,6 +121,9 @@ fn channel_axes(
             let text =
                 format!("{}, a gantry slave, which must not belong to a channel; used: no axis", draft.found(key));
             messages.push(draft.message(Code::Number(21_020), ERROR, key, &text).of_axis(number));
+            continue;
+        }
+        if place >= count {
             continue;
         }
         if let Some(channel) = owners.get(&number) {

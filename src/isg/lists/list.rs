@@ -58,11 +58,6 @@ impl List {
             Scope::Channel => format!("channel {}", self.number),
         }
     }
-
-    /// A whole number of the list as it stands in it; the default without an entry.
-    pub(super) fn stored_whole(&self, key: Key, default: i64) -> i64 {
-        self.stored.get(&key).and_then(|entry| entry.value.whole()).unwrap_or(default)
-    }
 }
 
 /// THE PARAMETER LISTS of a machine.

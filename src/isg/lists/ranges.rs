@@ -226,10 +226,9 @@ fn modulo(draft: &mut Draft<'_>, messages: &mut Vec<Message>) {
 }
 
 fn words(draft: &mut Draft<'_>, messages: &mut Vec<Message>) {
-    for (key, words) in [(HOMING, &HOMINGS[..4]), (ON_MODE, &ON_MODES[..])] {
-        let found = draft.word(key);
-        if !words.contains(&found) && !(key == HOMING && HOMINGS.contains(&found)) {
-            messages.push(draft.out_of_range(key, &words.join(", "), words[0]));
+    for (key, words, printed) in [(HOMING, &HOMINGS[..], 4), (ON_MODE, &ON_MODES[..], 4)] {
+        if !words.contains(&draft.word(key)) {
+            messages.push(draft.out_of_range(key, &words[..printed].join(", "), words[0]));
             draft.set_word(key, words[0]);
         }
     }

@@ -18,6 +18,7 @@ use super::lines::{Line, lines};
 use super::list::{AXIS_NUMBER, Entry, List, Lists, Unknown};
 use super::name::{Meaning, meaning};
 use super::parameter::{Key, Scope};
+use super::table::by_number;
 use super::value::read;
 
 /// All that the files of a machine hold.
@@ -80,9 +81,7 @@ impl Collected {
         let file = File { place, entries: lines.entries, unclosed: lines.unclosed };
         match file.scope() {
             Some(Scope::Axis) => {
-                let mut list = self.list(&file, Scope::Axis, 0);
-                let number = list.stored_whole(Key::new(AXIS_NUMBER), 0);
-                list.number = u16::try_from(number).unwrap_or(0);
+                let list = self.list(&file, Scope::Axis, file.axis_number());
                 self.lists.axes.push(list);
             }
             Some(Scope::Channel) => {
@@ -162,6 +161,14 @@ impl File<'_> {
             return Some(Scope::Axis);
         }
         has(&is_of_channel).then_some(Scope::Channel)
+    }
+
+    /// The logical number in an axis list; 0 if it cannot be read.
+    fn axis_number(&self) -> u16 {
+        let last = self.entries.iter().rev().find(|line| is_axis_number(&list_name(line.name)));
+        let parameter = by_number(AXIS_NUMBER).zip(last);
+        let value = parameter.and_then(|(parameter, line)| read(parameter, [0, 0], line.rest).ok());
+        value.and_then(|read| u16::try_from(read.value.whole()?).ok()).unwrap_or(0)
     }
 
     /// A finding about a file that looks like an axis list and has no logical number.

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 
-use super::super::{Lists, PARAMETERS, examine};
 use crate::control::Value;
+use crate::isg::lists::{Lists, PARAMETERS, examine};
 use crate::source::Place;
 
 fn used(files: &[(&str, Vec<u8>)]) {

@@ -1,7 +1,7 @@
 //! One axis: ranges, defaults and values in effect.
 
-use super::super::{AxisKind, Homing, OnMode};
 use super::{MASTER, axis, codes, hard, read, start, whole};
+use crate::isg::lists::{AxisKind, Homing, OnMode};
 
 /// An axis alone, with these entries.
 fn alone(entries: &str) -> super::Started {
@@ -81,7 +81,7 @@ fn a_gantry_pair_needs_the_limits_of_its_slave() {
     assert_eq!(lists.gantry_pair(2), None);
 }
 
-/// HG-13, HG-22, B48: a_emergency 0 is a_max.
+/// HG-22, B48: a_emergency 0 is a_max.
 #[test]
 fn an_emergency_deceleration_of_0_is_the_maximum_acceleration() {
     let started = alone("getriebe[0].dynamik.a_max 1500\n");
@@ -194,7 +194,7 @@ fn edge_detection_corrects_other_modes() {
     assert_eq!(of("config", 0), (vec!["P-AXIS-00704 3 5".to_owned()], OnMode::Default));
 }
 
-/// HG-21: DEFAULT with P-AXIS-00261 acts on the edge, as EDGE_TRIGGERED does.
+/// DEFAULT with P-AXIS-00261 acts on the edge, as EDGE_TRIGGERED does.
 #[test]
 fn two_modes_act_on_the_edge() {
     let of = |mode: &str, edge: u8| {
@@ -217,7 +217,7 @@ fn a_spindle_has_no_gantry_parameters() {
     assert!(axis(&linear, 5).slave_no_homing);
 }
 
-/// HG-10, HG-11: the parameters of homing.
+/// The parameters of homing.
 #[test]
 fn parameters_of_homing_are_read() {
     let started = alone(

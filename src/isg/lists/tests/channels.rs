@@ -99,7 +99,7 @@ fn an_axis_belongs_to_one_channel() {
     assert_eq!((both.messages[0].channel, both.channels[1].axes.len()), (Some(2), 0));
 }
 
-/// SG-17: the settings of couplings, and of feeds.
+/// The settings of couplings and of feeds.
 #[test]
 fn settings_of_a_channel_are_read() {
     let plain = channel("grp_anzahl 1\n");

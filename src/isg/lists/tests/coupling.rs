@@ -1,7 +1,7 @@
 //! Gantry combinations: masters, and what slaves take from them.
 
-use super::super::AxisKind;
 use super::{CHANNEL, MASTER, SLAVE, axis, codes, hard, start, whole};
+use crate::isg::lists::AxisKind;
 
 /// HG-01: the slave bit, the master bit and P-AXIS-00070 together make a combination; each of them alone does not.
 #[test]
@@ -63,9 +63,11 @@ fn a_slave_in_a_channel_is_an_error() {
     assert!(started.messages[0].text.ends_with("(channel.lis:6)"));
     assert_eq!(started.messages[0].channel, Some(1));
     assert_eq!(started.channels[0].axes.len(), 1);
+    let beyond = hard("", "", "gruppe[0].achse[1].bezeichnung X1\ngruppe[0].achse[1].log_achs_nr 5\n");
+    assert_eq!(codes(&beyond.messages), ["P-CHAN-00003 3 -", "21020 3 5"]);
 }
 
-/// HG-05: a slave has no name in a channel, a master may have one.
+/// Only a master has a name in a channel; a slave has its default name.
 #[test]
 fn only_the_master_is_in_the_channel() {
     let started = hard("", "", "");
@@ -174,7 +176,7 @@ fn other_parameters_may_differ() {
     assert_eq!((slave.offset, slave.max_homing_distance, slave.slave_no_homing), (7, 9, true));
 }
 
-/// HG-19: a master need not be a channel axis.
+/// A master need not be a channel axis.
 #[test]
 fn a_master_without_a_channel_has_its_slaves() {
     let slave = format!("kopf.achs_nr 5\n{SLAVE}");

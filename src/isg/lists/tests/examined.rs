@@ -1,8 +1,8 @@
 //! What `opennck machine-data check` reports.
 
-use super::super::examine;
 use super::{CHANNEL, MASTER, SLAVE, hard_files};
 use crate::control::{Class, Examined, summary};
+use crate::isg::lists::examine;
 
 /// HG-28: a machine without a fault has a summary and no findings.
 #[test]

@@ -66,3 +66,13 @@ fn codes(messages: &[Message]) -> Vec<String> {
 fn whole(axis: &Axis, name: &str) -> i64 {
     axis.value(name).and_then(Value::whole).unwrap()
 }
+
+/// Lists and what a start makes of them are saved with a machine.
+#[test]
+fn lists_survive_saving() {
+    let mut lists = Lists::read(&hard_files("", "getriebe[0].dynamik.a_max 500\nkenngr.swe_pos 5\n", "")).unwrap();
+    let started = lists.start();
+    assert_eq!(started.messages.len(), 1);
+    let bytes = postcard::to_stdvec(&(&lists, &started)).unwrap();
+    assert_eq!(postcard::from_bytes::<(Lists, Started)>(&bytes).unwrap(), (lists, started));
+}

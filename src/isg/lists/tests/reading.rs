@@ -43,10 +43,10 @@ fn comments_do_not_change_values() {
 fn latin_1_and_utf_8_are_read() {
     let latin: &[u8] = b"# Ma\xdfe in \xb5m\nkopf.achs_nr 1\nkenngr.achs_typ 1\n";
     let utf: &[u8] = "\u{feff}kopf.achs_nr 2\nkenngr.achs_typ 1 # µm\n".as_bytes();
-    let lists = super::super::Lists::read(&[("a.lis", latin), ("b.lis", utf)]).unwrap();
+    let lists = crate::isg::lists::Lists::read(&[("a.lis", latin), ("b.lis", utf)]).unwrap();
     assert_eq!(lists.axis_numbers().collect::<Vec<_>>(), [1, 2]);
     let wide: Vec<u8> = [0xFF, 0xFE].into_iter().chain("kopf.achs_nr 1\n".bytes().flat_map(|byte| [byte, 0])).collect();
-    let problem = super::super::Lists::read(&[("a.lis", wide)]).unwrap_err();
+    let problem = crate::isg::lists::Lists::read(&[("a.lis", wide)]).unwrap_err();
     assert!(
         problem.to_string().starts_with("a.lis: expected a parameter list in UTF-8 or Latin-1, found a text in UTF-16")
     );

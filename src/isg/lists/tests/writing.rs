@@ -1,8 +1,8 @@
 //! Changes of entries: targets, values, and when they take effect.
 
-use super::super::{Change, Effect, Lists};
 use super::{axis, codes, hard_files, read};
 use crate::control::Value;
+use crate::isg::lists::{Change, Effect, Lists};
 use crate::source::{Place, Problem};
 
 fn hard() -> Lists {
