@@ -13,7 +13,7 @@ mod writing;
 use crate::control::Value;
 use crate::source::Problem;
 
-use super::{Axis, Lists, Message, Started};
+use super::{Axis, Lists, Message, PARAMETERS, Parameter, Started};
 
 /// A linear gantry master with the logical number 1.
 const MASTER: &str = "kopf.achs_nr 1\nkenngr.achs_typ 1\nkenngr.achs_mode 0x00010001\ngetriebe[0].dynamik.a_max 1000\n";
@@ -75,4 +75,35 @@ fn lists_survive_saving() {
     assert_eq!(started.messages.len(), 1);
     let bytes = postcard::to_stdvec(&(&lists, &started)).unwrap();
     assert_eq!(postcard::from_bytes::<(Lists, Started)>(&bytes).unwrap(), (lists, started));
+}
+
+/// The page for users has the table of parameters as it is.
+#[test]
+fn the_page_of_parameter_lists_has_each_parameter() {
+    let page = include_str!("../../../../docs/parameter_lists.md");
+    let (_, table) = page.split_once("## Parameters").unwrap();
+    let printed: Vec<&str> = table.lines().filter(|line| line.starts_with("| P-")).collect();
+    let row = |parameter: &Parameter| {
+        let name = parameter.name.map_or_else(|| "–".to_owned(), |name| format!("`{name}`"));
+        let unit = if parameter.units[0] == parameter.units[1] {
+            parameter.units[0].to_owned()
+        } else {
+            parameter.units.join(" / ")
+        };
+        let columns = [
+            parameter.id(),
+            name,
+            parameter.kind.to_string(),
+            unit,
+            parameter.range.to_owned(),
+            parameter.default.to_owned(),
+            parameter.effect.to_string(),
+            parameter.meaning.to_owned(),
+            if parameter.is_modelled { "yes" } else { "–" }.to_owned(),
+        ];
+        let columns = columns.map(|column| if column.is_empty() { " ".to_owned() } else { format!(" {column} ") });
+        format!("|{}|", columns.join("|"))
+    };
+    let expected: Vec<String> = PARAMETERS.iter().map(row).collect();
+    assert_eq!(printed, expected, "expected in docs/parameter_lists.md:\n{}", expected.join("\n"));
 }
