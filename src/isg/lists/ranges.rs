@@ -164,7 +164,8 @@ fn basic_mode(draft: &mut Draft<'_>, messages: &mut Vec<Message>) {
     let (number, bit) = match mode {
         0 if is_linear => (Some(110_353), MODE_LINEAR),
         0 => (Some(110_353), MODE_MODULO),
-        _ if is_linear || is_spindle(draft) => (None, basic & !MODE_OPTIMISED & !MODE_LINEAR | i64::from(is_linear)),
+        _ if is_linear => (None, MODE_LINEAR),
+        _ if is_spindle(draft) => (None, MODE_MODULO),
         _ => (Some(110_053), MODE_LINEAR),
     };
     let used = mode | bit;
