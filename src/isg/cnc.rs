@@ -280,6 +280,7 @@ impl Control for Cnc {
             self.0.take_first_positions();
         }
         self.0.monitor();
+        self.0.note_phases();
     }
 
     fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, _: AxisSet) {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::charts::GantryPhase;
 use super::messages;
 use super::parameters::{AxisParameters, Clearing};
 use super::pending::of_axis;
@@ -32,6 +33,8 @@ pub(super) struct Combination {
     pub is_config: bool,
     /// Its axes home at once, each for itself.
     pub homes_at_once: bool,
+    /// What it is doing, for the chart.
+    pub phase: GantryPhase,
     /// The event with which it was opened or closed.
     pub cause: EventId,
 }
@@ -55,7 +58,7 @@ pub(super) fn combinations(axes: &PerAxis<Axis>, cause: EventId) -> Vec<Combinat
             let mut coupling = Coupling::new(master, POLICY, followers)?;
             coupling.start_up(&AxesView(axes));
             let is_config = slaves_of(master).all(|(_, slave)| slave.parameters.clearing == Clearing::Never);
-            Some(Combination { coupling, is_config, homes_at_once: false, cause })
+            Some(Combination { coupling, is_config, homes_at_once: false, phase: GantryPhase::default(), cause })
         })
         .collect()
 }

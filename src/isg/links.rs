@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::channel::Channel;
+use super::charts::LinkPhase;
 use super::gantry::POLICY;
 use super::language::{AxisReference, Form, Link, LinkOff, Pair};
 use super::messages;
@@ -28,6 +29,8 @@ pub(super) struct Group {
     pub couplings: Vec<Coupling>,
     /// A reset has switched it off; its differences are still being cleared.
     pub ending: bool,
+    /// What it is doing, for the chart.
+    pub phase: LinkPhase,
 }
 
 /// A refused command: the message, and its third and fourth parameter.
@@ -109,8 +112,10 @@ impl State {
         for member in couplings.iter().flat_map(Coupling::members) {
             self.axes[member].causes.coupled = event;
         }
+        let mut group = Group { number, couplings, ending: false, phase: LinkPhase::Inactive };
+        Self::note_group(self.link_rows(), &mut group, why);
         let channel = &mut self.channels[index];
-        channel.groups.push(Group { number, couplings, ending: false });
+        channel.groups.push(group);
         channel.last_group = number;
         Ok(())
     }
@@ -214,6 +219,10 @@ impl State {
             for member in group.couplings.iter().flat_map(Coupling::members) {
                 self.axes[member].causes.coupled = event;
             }
+        }
+        let rows = &mut self.log.taken.0;
+        for group in channel.groups.iter_mut().filter(|group| ends(group)) {
+            Self::note_group(&mut rows[super::charts::LINK], group, why);
         }
         channel.groups.retain(|group| !ends(group));
         // The group before it counts as the last one that was switched on.

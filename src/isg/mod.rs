@@ -13,6 +13,7 @@
 //! | `channel.rs`, `operation.rs`, `program.rs`, `exchange.rs` | a channel: start, reset, path, blocks, axis exchange |
 //! | `motion.rs` | setpoints and position control |
 //! | `messages.rs`, `pending.rs`, `rules.rs`, `texts.rs` | messages and causes |
+//! | `charts.rs` | the state machines as tables |
 //! | `publish.rs` | the CNC's half of the interface, and variables |
 //!
 //! Both kinds of gantry are policies over [`motion::coupling`](crate::motion::coupling), as the grouping of the SINUMERIK is. This module knows
@@ -26,6 +27,7 @@
 //! - A movement waits for drives that start up after power on; later it needs their releases at once.
 
 mod channel;
+mod charts;
 mod cnc;
 mod configuration;
 mod exchange;

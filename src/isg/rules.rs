@@ -27,11 +27,17 @@ rules! {
     HomingBegins: "HG-30", "G74 begins the homing run of this axis";
     HomingInTurn: "HG-09", "the homing run of this axis begins: the axis before it is homed";
     HomingAtOnce: "HG-10", "the drives home by themselves: all axes of the combination begin in the same cycle";
+    AwayFromCam: "HOMING", "the axis is not on its reference cam";
+    WithoutCam: "HOMING", "the axis has no cam (P-AXIS-00156): the next zero pulse gives the reference";
+    WithoutSwitch: "HOMING", "without cam and zero pulse the present position is the reference";
+    Reverses: "HOMING", "the axis stands on the cam and reverses";
+    WithoutReversal: "HOMING", "the axis stands on the cam and does not reverse (P-AXIS-00157)";
     OnCam: "HOMING", "the axis is on its reference cam";
     OffCam: "HOMING", "the axis has left its reference cam";
     ZeroPulse: "HOMING", "the zero pulse after the cam gives the reference";
     CamEdge: "HOMING", "the rising edge of the cam gives the reference, without a zero pulse";
     Homed: "HG-09", "the homing run has found the reference position";
+    AllHomed: "HG-08", "all axes are homed: the difference counts from P-AXIS-00073";
     HomedWithMaster: "HG-11", "the slave takes the position of its own list when its master is homed";
     HomingAborted: "HG-09", "the homing run ends without a reference";
     StageOne: "HG-07", "the gantry difference exceeds the resettable limit (P-AXIS-00072)";

@@ -2,7 +2,7 @@
 
 use super::hli::HLI;
 use super::rules::RULES;
-use super::{lists, messages};
+use super::{charts, lists, messages};
 use crate::control::{AlarmRow, Chart, ClearInfo, Data, Datum, DatumRow, Kind, Owner, Texts, Value};
 use crate::image::Interface;
 use crate::units::ChannelNumber;
@@ -120,7 +120,7 @@ impl Texts for IsgTexts {
     }
 
     fn charts(&self) -> Vec<Chart> {
-        Vec::new()
+        charts::charts()
     }
 }
 

@@ -4,44 +4,19 @@
 //! edge of the cam, gives the reference. The axis then goes back to this place, so that it stands on its reference position. While an axis
 //! of a combination runs, it leads the others: nothing moves relative to anything.
 
+mod run;
+
 use serde::{Deserialize, Serialize};
 
+pub(super) use run::{Run, STEPS, text};
+
+use super::charts;
 use super::messages;
-use super::parameters::Homing;
 use super::pending::of_axis;
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
-use crate::motion::{Feedback, Motion};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
-
-/// Where a run is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-enum Phase {
-    /// Fast to the cam.
-    ToCam,
-    /// Brakes on the cam.
-    Brakes,
-    /// Slowly off the cam.
-    OffCam,
-    /// Slowly onto the cam.
-    OntoCam,
-    /// Slowly to the zero pulse.
-    ToZeroPulse,
-    /// Back to the reference.
-    Back,
-}
-
-/// The run of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Run {
-    phase: Phase,
-    /// The setpoint at the start.
-    start: Position,
-    /// The encoder value at the reference.
-    mark: Position,
-    cause: EventId,
-}
 
 /// The axes that home one after the other, or at once: a combination, or one axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -65,54 +40,6 @@ impl Job {
     pub(super) fn new(mut axes: Vec<(i64, AxisNumber)>, cause: EventId) -> Self {
         axes.sort_by_key(|(order, _)| *order);
         Self { waiting: axes, running: Vec::new(), cause }
-    }
-}
-
-impl Run {
-    fn begin(homing: &Homing, start: Position, feedback: &Feedback, cause: EventId) -> Self {
-        let phase = match (homing.with_cam, homing.with_zero_pulse) {
-            (true, _) if feedback.cam => Phase::Brakes,
-            (true, _) => Phase::ToCam,
-            (false, true) => Phase::ToZeroPulse,
-            (false, false) => Phase::Back,
-        };
-        Self { phase, start, mark: feedback.encoders[0].value, cause }
-    }
-
-    /// One cycle: what the axis does, and why the phase changed.
-    fn step(&mut self, homing: &Homing, feedback: &Feedback, rests: bool, shift: Position) -> (Motion, Option<Why>) {
-        let run = |velocity: f64| Motion::Run { velocity, acceleration: homing.acceleration };
-        let mut why = None;
-        match self.phase {
-            Phase::ToCam if feedback.cam => (self.phase, why) = (Phase::Brakes, Some(Why::OnCam)),
-            Phase::Brakes if rests && homing.reverses => self.phase = Phase::OffCam,
-            Phase::Brakes if rests && homing.with_zero_pulse => self.phase = Phase::ToZeroPulse,
-            Phase::Brakes if rests => self.phase = Phase::Back,
-            Phase::OffCam if !feedback.cam => (self.phase, why) = (Phase::OntoCam, Some(Why::OffCam)),
-            Phase::OntoCam if feedback.cam => {
-                self.mark = feedback.encoders[0].value;
-                let (phase, by) =
-                    if homing.with_zero_pulse { (Phase::ToZeroPulse, Why::OnCam) } else { (Phase::Back, Why::CamEdge) };
-                (self.phase, why) = (phase, Some(by));
-            }
-            Phase::ToZeroPulse => {
-                if let Some(mark) = feedback.encoders[0].zero_mark {
-                    self.mark = mark;
-                    (self.phase, why) = (Phase::Back, Some(Why::ZeroPulse));
-                }
-            }
-            Phase::ToCam | Phase::Brakes | Phase::OffCam | Phase::OntoCam | Phase::Back => {}
-        }
-        let motion = match self.phase {
-            Phase::ToCam => run(homing.direction * homing.fast),
-            Phase::Brakes => Motion::Brake { deceleration: homing.acceleration },
-            Phase::OffCam => run(-homing.direction * homing.slow),
-            Phase::OntoCam | Phase::ToZeroPulse => run(homing.direction * homing.slow),
-            Phase::Back => {
-                Motion::GoTo { target: self.mark + shift, velocity: homing.slow, acceleration: homing.acceleration }
-            }
-        };
-        (motion, why)
     }
 }
 
@@ -227,11 +154,12 @@ impl State {
                 let event = self.log.note_plain(Place::Axis(number), why, cause);
                 (axis.causes.homing, axis.causes.homed) = (event, event);
                 axis.homed = false;
-                Run::begin(&homing, axis.setpoint.position, &axis.feedback, event)
+                Run::begin(axis.setpoint.position, &axis.feedback, event)
             }
         };
         let rests = axis.setpoint.is_at_rest();
-        let (motion, changed) = run.step(&homing, &axis.feedback, rests, axis.shift);
+        let (motion, changed) =
+            run.step(&homing, &axis.feedback, rests, axis.shift, &mut self.log.taken.0[charts::HOMING]);
         if let Some(changed) = changed {
             let input = Input::Length(Quantity::Position, number, axis.actual());
             run.cause = self.log.note_one(Place::Axis(number), changed, input, run.cause);
@@ -239,7 +167,7 @@ impl State {
         let travelled = (axis.setpoint.position - run.start).abs();
         let is_too_far = axis.parameters.is_slave && homing.farthest.is_some_and(|farthest| travelled > farthest);
         let mark = run.mark + axis.shift;
-        let arrived = run.phase == Phase::Back && rests && axis.setpoint.position == mark && axis.has_settled();
+        let arrived = run.goes_back() && rests && axis.setpoint.position == mark && axis.has_settled();
         axis.motion = Some(motion);
         axis.run = Some(run);
         if is_too_far {
@@ -252,6 +180,7 @@ impl State {
         if !arrived {
             return false;
         }
+        run.end(&mut self.log.taken.0[charts::HOMING]);
         axis.run = None;
         let event = self.log.note_plain(Place::Axis(number), Why::Homed, run.cause);
         self.axes[number].causes.homing = event;
