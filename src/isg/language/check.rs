@@ -1,0 +1,215 @@
+//! The static check of a program: every error of every line, one for each line, without a machine and without running it.
+//!
+//! Values that only a run knows are no errors, nor are names of axes. Blocks that are skipped or jumped over are read, too.
+
+use std::sync::Arc;
+
+use crate::nc_program::{Program, normalised};
+
+use super::compose::{Composed, compose, compose_command};
+use super::fault::{Error, Fault, FaultCode};
+use super::head::{Header, head, header};
+use super::interpreter::{fault, fault_in, hidden};
+use super::lines::Line;
+use super::parse::content;
+use super::scope::{Scope, Store, is_read_only};
+use super::search::{Mark, Part, Structure, Text, mark};
+use super::syntax::{Content, Flow};
+
+/// A finding of the check.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// What and where it is.
+    pub fault: Fault,
+    /// The program goes on after it.
+    pub is_warning: bool,
+}
+
+/// Checks a program. Global subroutines (`L NAME`) are searched in `others`.
+#[must_use]
+pub fn check(program: &Program, others: &[Arc<Program>], lenient: bool) -> Vec<Finding> {
+    let text = Text { program, lenient, is_skipped: &|_| false };
+    let mut checker =
+        Checker { text, others, section: 1, is_subroutine: false, open: Vec::new(), findings: Vec::new() };
+    if let Err((line, error)) = text.main() {
+        checker.findings.push(Finding { fault: fault_in(program, line, error), is_warning: false });
+    }
+    let mut number = 1;
+    while let Some(line) = Line::read(program, number, lenient) {
+        number = checker.line(&line);
+    }
+    checker.unclosed();
+    let mut findings = checker.findings;
+    // One for each line: the first error, else the first warning.
+    findings.sort_by_key(|finding| (finding.fault.line, finding.is_warning, finding.fault.column));
+    findings.dedup_by_key(|finding| finding.fault.line);
+    findings
+}
+
+/// Whether `L NAME` means this program: with its ending, or without.
+#[must_use]
+pub fn is_called(name: &str, program: &Program) -> bool {
+    let (name, known) = (normalised(name), program.name());
+    name == known || known.strip_suffix(".NC").is_some_and(|known| name == known)
+}
+
+struct Checker<'a> {
+    text: Text<'a>,
+    others: &'a [Arc<Program>],
+    /// The first line of the main program or subroutine.
+    section: u32,
+    is_subroutine: bool,
+    open: Vec<(Structure, Part)>,
+    findings: Vec<Finding>,
+}
+
+impl<'a> Checker<'a> {
+    /// Checks a line and returns the next one.
+    fn line(&mut self, line: &Line<'a>) -> u32 {
+        let mut block = None;
+        let mut next = line.next;
+        let mut warnings = Vec::new();
+        let result = self.read(line, &mut block, &mut next, &mut warnings);
+        let is_failed = result.is_err();
+        let errors = result.err().into_iter().map(|error| (error, false));
+        let warnings = warnings.into_iter().filter(|_| !is_failed).map(|warning| (warning, true));
+        for (error, is_warning) in errors.chain(warnings) {
+            self.findings.push(Finding { fault: fault(self.text.program, line, block, error), is_warning });
+        }
+        next
+    }
+
+    fn read(
+        &mut self,
+        line: &Line<'a>,
+        block: &mut Option<u32>,
+        next: &mut u32,
+        warnings: &mut Vec<Error>,
+    ) -> Result<(), Error> {
+        if line.text.trim().is_empty() {
+            return Ok(());
+        }
+        if let Some(header) = header(&line.text)? {
+            self.unclosed();
+            self.section = line.next;
+            self.is_subroutine = matches!(header, Header::Subroutine(_));
+            return Ok(());
+        }
+        let head = head(&line.text)?;
+        *block = head.number;
+        if let Some(behind) = hidden(line)? {
+            *next = behind;
+            return Ok(());
+        }
+        self.structure(mark(&line.text, &head), line, head.rest)?;
+        let (none, at) = (Store::new(), head.rest);
+        let mut scope = Scope { program: &none, level: &none, channel: None, written: Vec::new() };
+        let composed = match content(&line.text, head.rest, self.text.lenient)? {
+            Content::Empty => return Ok(()),
+            Content::Words(words) => compose(&words, &mut scope)?,
+            Content::Command(command) => compose_command(&command, &scope)?,
+            Content::Flow(flow) => {
+                if let Flow::If(_, Some(target)) = flow {
+                    return self.jump(&target, at);
+                }
+                return self.inside(&flow, at);
+            }
+        };
+        if let Some((name, _, at)) = scope.written.iter().find(|(name, ..)| is_read_only(name)) {
+            return Err(Error::value(*at, format!("{name} cannot be written, only read")));
+        }
+        self.composed(composed, at, warnings)
+    }
+
+    fn composed(&self, composed: Composed, at: usize, warnings: &mut Vec<Error>) -> Result<(), Error> {
+        warnings.extend(composed.warnings);
+        if self.is_subroutine
+            && let Some(function) = composed.block.m.iter().find(|function| matches!(function, 2 | 30))
+        {
+            let text =
+                format!("M{function:02} in a subroutine aborts the program; write M17, or M30 in the main program");
+            warnings.push(Error::new(FaultCode::Call, at, text));
+        }
+        if let Some((target, at)) = composed.jump {
+            self.jump(&target, at)?;
+        }
+        let Some((name, is_local, at)) = composed.call else { return Ok(()) };
+        let is_known = match is_local {
+            true => self.text.subroutine(&name).is_some(),
+            false => is_called(&name, self.text.program) || self.others.iter().any(|other| is_called(&name, other)),
+        };
+        let text = match is_local {
+            true => format!("the file has no local subroutine `%L {name}`"),
+            false => format!("there is no program {name} among the files that are checked or beside them"),
+        };
+        if is_known { Ok(()) } else { Err(Error::new(FaultCode::Call, at, text)) }
+    }
+
+    fn jump(&self, target: &super::head::Target, at: usize) -> Result<(), Error> {
+        let found = self.text.label(self.section, target);
+        let Some((_, open)) = found else {
+            return Err(Error::syntax(at, format!("this program level has no label {target}")));
+        };
+        let is_entered = |line: u32| self.open.iter().any(|(_, part)| part.line == line);
+        match open.iter().find(|(structure, part)| structure.is_loop() && !is_entered(part.line)) {
+            Some((_, part)) => Err(Error::syntax(
+                at,
+                format!("the label {target} lies inside a loop that begins in line {}", part.line),
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// Opens and closes control blocks.
+    fn structure(&mut self, mark: Option<Mark<'_>>, line: &Line<'_>, at: usize) -> Result<(), Error> {
+        match mark {
+            Some(Mark::Open(structure)) => {
+                self.open.push((structure, Part { line: line.line, next: line.next }));
+                Ok(())
+            }
+            Some(Mark::Close(structure)) => match self.open.last() {
+                Some((open, _)) if *open == structure => {
+                    self.open.pop();
+                    Ok(())
+                }
+                Some(_) | None => {
+                    let [word, end] = structure.words();
+                    Err(Error::syntax(at, format!("${end} without ${word} before it")))
+                }
+            },
+            Some(Mark::Other(_)) | None => Ok(()),
+        }
+    }
+
+    /// Parts of a control block stand inside it.
+    fn inside(&self, flow: &Flow, at: usize) -> Result<(), Error> {
+        let innermost = self.open.last().map(|(structure, _)| *structure);
+        let (word, is_inside) = match flow {
+            Flow::ElseIf(_) => ("ELSEIF", innermost == Some(Structure::If)),
+            Flow::Else => ("ELSE", innermost == Some(Structure::If)),
+            Flow::Case(_) => ("CASE", innermost == Some(Structure::Switch)),
+            Flow::Default => ("DEFAULT", innermost == Some(Structure::Switch)),
+            Flow::Break => {
+                let is_left =
+                    |(structure, _): &(Structure, Part)| structure.is_loop() || *structure == Structure::Switch;
+                ("BREAK", self.open.iter().any(is_left))
+            }
+            Flow::Continue => ("CONTINUE", self.open.iter().any(|(structure, _)| structure.is_loop())),
+            _ => return Ok(()),
+        };
+        if is_inside {
+            Ok(())
+        } else {
+            Err(Error::syntax(at, format!("${word} stands outside the control block that it belongs to")))
+        }
+    }
+
+    /// The end of a section: what is open has no end.
+    fn unclosed(&mut self) {
+        for (structure, part) in std::mem::take(&mut self.open) {
+            let [word, end] = structure.words();
+            let error = Error::syntax(0, format!("${word} has no ${end}"));
+            self.findings.push(Finding { fault: fault_in(self.text.program, part.line, error), is_warning: false });
+        }
+    }
+}

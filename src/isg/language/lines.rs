@@ -1,0 +1,181 @@
+//! Lines of a program as the language reads them: comments are blanks, `\` at the end continues a line.
+//!
+//! `( … )` and `;` begin comments; an unclosed `(` ends with its line. With `lenient` the text is read as the manuals print it: an unclosed
+//! `(` reaches over further lines if one of them closes it, `#` before a blank begins a comment, and `)` alone means nothing.
+
+use std::borrow::Cow;
+
+use crate::nc_program::Program;
+
+use super::cursor::Cursor;
+
+/// A block of a program, perhaps on several lines.
+#[derive(Clone, Debug)]
+pub(super) struct Line<'a> {
+    program: &'a Program,
+    /// Without comments; the bytes have the places of the text.
+    pub(super) text: Cow<'a, str>,
+    /// Where the parts of the text begin, and the lines that they are.
+    parts: Vec<(usize, u32)>,
+    /// The first line.
+    pub(super) line: u32,
+    /// The line behind it.
+    pub(super) next: u32,
+}
+
+impl<'a> Line<'a> {
+    /// The block that begins in a line.
+    pub(super) fn read(program: &'a Program, line: u32, lenient: bool) -> Option<Self> {
+        let raw = program.line(line)?;
+        let mut block =
+            Self { program, text: Cow::Borrowed(""), parts: vec![(0, line)], line, next: line.saturating_add(1) };
+        let (mut text, mut is_open) = without_comments(raw, 0, lenient);
+        loop {
+            let before = block.text.len();
+            block.text = if before == 0 { text } else { Cow::Owned(block.text.into_owned() + &text) };
+            let last = block.next - 1;
+            let (next, from) = if lenient
+                && is_open
+                && let Some(end) = comment_end(program, block.next)
+            {
+                end
+            } else if block.text.trim_end().ends_with('\\') {
+                let end = block.text.trim_end().len() - 1;
+                let mut without = block.text.into_owned();
+                without.replace_range(end..=end, " ");
+                block.text = Cow::Owned(without);
+                (last.saturating_add(1), 0)
+            } else {
+                return Some(block);
+            };
+            let Some(raw) = program.line(next) else { return Some(block) };
+            // One blank between the lines, so that words of two lines stay two words.
+            let mut joined = block.text.into_owned();
+            joined.push(' ');
+            block.parts.push((joined.len(), next));
+            block.text = Cow::Owned(joined);
+            block.next = next.saturating_add(1);
+            (text, is_open) = without_comments(raw, from, lenient);
+        }
+    }
+
+    /// The line and the column of a byte of the text, counted from one.
+    pub(super) fn place(&self, at: usize) -> (u32, u32) {
+        let index = self.parts.partition_point(|(start, _)| *start <= at).saturating_sub(1);
+        let (start, line) = self.parts.get(index).copied().unwrap_or((0, self.line));
+        let raw = self.program.line(line).unwrap_or_default();
+        let column = raw.char_indices().take_while(|(byte, _)| *byte < at - start.min(at)).count() + 1;
+        (line, u32::try_from(column).unwrap_or(u32::MAX))
+    }
+
+    /// The text of the first line as it was written.
+    pub(super) fn source(&self) -> &'a str {
+        self.program.line(self.line).unwrap_or_default()
+    }
+
+    /// The line is `#COMMENT BEGIN`, perhaps with something behind it.
+    pub(super) fn begins_comment(&self) -> Option<Cursor<'_>> {
+        comment_mark(&self.text, "BEGIN")
+    }
+
+    /// The line is `#COMMENT END`, perhaps with something behind it.
+    pub(super) fn ends_comment(&self) -> Option<Cursor<'_>> {
+        comment_mark(&self.text, "END")
+    }
+
+    /// The line of the `#COMMENT END` that belongs to this `#COMMENT BEGIN`.
+    pub(super) fn comment_end(&self) -> Option<u32> {
+        (self.next..=self.program.count())
+            .find(|line| self.program.line(*line).is_some_and(|text| comment_mark(text, "END").is_some()))
+    }
+}
+
+/// The blocks of a program from a line on, without those between `#COMMENT BEGIN` and `#COMMENT END`.
+pub(super) struct Lines<'a> {
+    program: &'a Program,
+    line: u32,
+    lenient: bool,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(program: &'a Program, line: u32, lenient: bool) -> Self {
+        Self { program, line, lenient }
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        let line = Line::read(self.program, self.line, self.lenient)?;
+        self.line = line.next;
+        if line.begins_comment().is_some() {
+            self.line = line.comment_end()?;
+        }
+        Some(line)
+    }
+}
+
+/// What stands behind `#COMMENT BEGIN` or `#COMMENT END`.
+fn comment_mark<'a>(text: &'a str, word: &str) -> Option<Cursor<'a>> {
+    let mut cursor = Cursor::new(text, 0);
+    cursor.skip_blanks();
+    if cursor.eat("N") {
+        cursor.digits();
+    }
+    (cursor.eat("#COMMENT") && cursor.eat_word(word)).then_some(cursor)
+}
+
+/// The text with blanks for comments, and whether a comment is not closed. Everything before `from` is a comment.
+fn without_comments(raw: &str, from: usize, lenient: bool) -> (Cow<'_, str>, bool) {
+    if from == 0 && !raw.contains(['(', ';', '#', ')']) {
+        return (Cow::Borrowed(raw), false);
+    }
+    let mut text = String::with_capacity(raw.len());
+    let (mut hidden_to, mut is_open, mut is_quoted) = (from, false, false);
+    for (at, letter) in raw.char_indices() {
+        if at >= hidden_to {
+            let rest = &raw[at..];
+            match letter {
+                '"' => is_quoted = !is_quoted,
+                _ if is_quoted => {}
+                '(' => {
+                    let end = rest.find(')');
+                    is_open = end.is_none();
+                    hidden_to = end.map_or(raw.len(), |end| at + end + 1);
+                }
+                ';' => hidden_to = raw.len(),
+                ')' if lenient => hidden_to = at + 1,
+                '#' if lenient && !rest[1..].starts_with(|next: char| !next.is_whitespace()) => hidden_to = raw.len(),
+                _ => {}
+            }
+        }
+        if at < hidden_to {
+            text.extend(std::iter::repeat_n(' ', letter.len_utf8()));
+        } else {
+            text.push(letter);
+        }
+    }
+    (Cow::Owned(text), is_open)
+}
+
+/// Where a comment ends that was not closed in the line before: the line, and the byte behind `)`. A line that looks like a block or has a
+/// comment of its own ends the search.
+fn comment_end(program: &Program, from: u32) -> Option<(u32, usize)> {
+    for number in from..=program.count() {
+        let raw = program.line(number)?;
+        let text = raw.trim_start();
+        let is_numbered =
+            text.strip_prefix('N').is_some_and(|rest| rest.starts_with(|next: char| next.is_ascii_digit()));
+        if text.is_empty() || is_numbered || text.starts_with(['%', '#', '(', ';', ':']) {
+            return None;
+        }
+        match (raw.find(')'), raw.find('(')) {
+            (Some(end), None) => return Some((number, end + 1)),
+            (Some(end), Some(start)) if end < start => return Some((number, end + 1)),
+            (_, Some(_)) => return None,
+            (None, None) => {}
+        }
+    }
+    None
+}
