@@ -29,9 +29,17 @@ pub struct Finding {
 #[must_use]
 pub fn check(program: &Program, others: &[Arc<Program>], lenient: bool) -> Vec<Finding> {
     let text = Text { program, lenient, is_skipped: &|_| false };
-    let mut checker =
-        Checker { text, others, section: 1, is_subroutine: false, open: Vec::new(), findings: Vec::new() };
-    if let Err((line, error)) = text.main() {
+    let main = text.main();
+    let mut checker = Checker {
+        text,
+        others,
+        main: main.as_ref().map_or(0, |line| *line),
+        section: 1,
+        is_subroutine: false,
+        open: Vec::new(),
+        findings: Vec::new(),
+    };
+    if let Err((line, error)) = main {
         checker.findings.push(Finding { fault: fault_in(program, line, error), is_warning: false });
     }
     let mut number = 1;
@@ -56,7 +64,9 @@ pub fn is_called(name: &str, program: &Program) -> bool {
 struct Checker<'a> {
     text: Text<'a>,
     others: &'a [Arc<Program>],
-    /// The first line of the main program or subroutine.
+    /// The first line of the main program; 0: there is none.
+    main: u32,
+    /// The first line of the section: main program or subroutine.
     section: u32,
     is_subroutine: bool,
     open: Vec<(Structure, Part)>,
@@ -66,6 +76,11 @@ struct Checker<'a> {
 impl<'a> Checker<'a> {
     /// Checks a line and returns the next one.
     fn line(&mut self, line: &Line<'a>) -> u32 {
+        if line.line == self.main {
+            // It may follow a subroutine without a header line.
+            self.unclosed();
+            (self.section, self.is_subroutine) = (self.main, false);
+        }
         let mut block = None;
         let mut next = line.next;
         let mut warnings = Vec::new();
@@ -195,7 +210,16 @@ impl<'a> Checker<'a> {
                 ("BREAK", self.open.iter().any(is_left))
             }
             Flow::Continue => ("CONTINUE", self.open.iter().any(|(structure, _)| structure.is_loop())),
-            _ => return Ok(()),
+            Flow::If(..)
+            | Flow::EndIf
+            | Flow::Switch(..)
+            | Flow::EndSwitch
+            | Flow::For { .. }
+            | Flow::EndFor
+            | Flow::While(_)
+            | Flow::EndWhile
+            | Flow::Do
+            | Flow::EndDo(_) => return Ok(()),
         };
         if is_inside {
             Ok(())

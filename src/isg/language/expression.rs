@@ -126,16 +126,19 @@ const FUNCTIONS: [(&str, Function, usize); 22] = [
 ];
 
 /// Parts of one expression, so that no text needs too much stack.
-const PARTS: usize = 500;
+const PARTS: usize = 250;
+
+/// Brackets and signs inside each other, for the same reason.
+const DEPTH: usize = 50;
 
 /// Reads an expression.
 pub(super) fn expression(cursor: &mut Cursor<'_>) -> Result<Expression, Error> {
-    Parser { cursor, parts: 0 }.binary(0)
+    Parser { cursor, parts: 0, depth: 0 }.binary(0)
 }
 
 /// Reads the name of a P parameter or a `V.` variable; nothing if something else follows.
 pub(super) fn place(cursor: &mut Cursor<'_>) -> Result<Option<Place>, Error> {
-    Parser { cursor, parts: 0 }.place()
+    Parser { cursor, parts: 0, depth: 0 }.place()
 }
 
 /// Whether a P parameter or a `V.` variable follows.
@@ -151,6 +154,7 @@ pub(super) fn is_place(cursor: &Cursor<'_>) -> bool {
 struct Parser<'p, 'a> {
     cursor: &'p mut Cursor<'a>,
     parts: usize,
+    depth: usize,
 }
 
 impl Parser<'_, '_> {
@@ -193,13 +197,19 @@ impl Parser<'_, '_> {
 
     fn signed(&mut self) -> Result<Expression, Error> {
         self.count()?;
-        if self.cursor.eat("-") {
-            return Ok(Expression::Minus(Box::new(self.binary(SIGN)?)));
-        }
-        if self.cursor.eat("+") {
-            return self.binary(SIGN);
-        }
-        self.primary()
+        self.depth += 1;
+        let result = if self.depth > DEPTH {
+            let text = format!("brackets and signs are nested more than {DEPTH} deep");
+            Err(Error::syntax(self.cursor.at(), text))
+        } else if self.cursor.eat("-") {
+            self.binary(SIGN).map(|inner| Expression::Minus(Box::new(inner)))
+        } else if self.cursor.eat("+") {
+            self.binary(SIGN)
+        } else {
+            self.primary()
+        };
+        self.depth -= 1;
+        result
     }
 
     fn primary(&mut self) -> Result<Expression, Error> {

@@ -340,7 +340,14 @@ pub(super) fn hidden(line: &Line<'_>) -> Result<Option<u32>, Error> {
     }
     let Some(mut cursor) = line.begins_comment() else { return Ok(None) };
     cursor.expect_end("#COMMENT BEGIN")?;
-    let end = line.comment_end().ok_or_else(|| Error::syntax(0, "#COMMENT BEGIN without #COMMENT END behind it"))?;
+    let (end, has_text) =
+        line.comment_end().ok_or_else(|| Error::syntax(0, "#COMMENT BEGIN without #COMMENT END behind it"))?;
+    if has_text {
+        return Err(Error::syntax(
+            0,
+            format!("something stands behind the #COMMENT END in line {end}; it stands alone"),
+        ));
+    }
     Ok(Some(end.saturating_add(1)))
 }
 

@@ -83,10 +83,12 @@ impl<'a> Line<'a> {
         comment_mark(&self.text, "END")
     }
 
-    /// The line of the `#COMMENT END` that belongs to this `#COMMENT BEGIN`.
-    pub(super) fn comment_end(&self) -> Option<u32> {
-        (self.next..=self.program.count())
-            .find(|line| self.program.line(*line).is_some_and(|text| comment_mark(text, "END").is_some()))
+    /// The line of the `#COMMENT END` that belongs to this `#COMMENT BEGIN`, and whether something stands behind it.
+    pub(super) fn comment_end(&self) -> Option<(u32, bool)> {
+        (self.next..=self.program.count()).find_map(|number| {
+            let (text, _) = without_comments(self.program.line(number)?, 0, false);
+            comment_mark(&text, "END").map(|mut behind| (number, !behind.is_end()))
+        })
     }
 }
 
@@ -110,7 +112,7 @@ impl<'a> Iterator for Lines<'a> {
         let line = Line::read(self.program, self.line, self.lenient)?;
         self.line = line.next;
         if line.begins_comment().is_some() {
-            self.line = line.comment_end()?;
+            (self.line, _) = line.comment_end()?;
         }
         Some(line)
     }

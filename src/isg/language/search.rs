@@ -121,6 +121,9 @@ impl<'a> Text<'a> {
     }
 
     fn is_empty(self, line: &Line<'_>) -> bool {
+        if line.begins_comment().is_some() || line.ends_comment().is_some() {
+            return true;
+        }
         let rest = head(&line.text).map_or(&*line.text, |head| &line.text[head.rest..]).trim();
         rest.is_empty() || self.lenient && rest == ":"
     }

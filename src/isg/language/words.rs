@@ -61,6 +61,7 @@ fn word(cursor: &mut Cursor<'_>) -> Result<WordKind, Error> {
     let at = cursor.at();
     if let Some(place) = place(cursor)? {
         if !cursor.eat("=") {
+            cursor.skip_blanks();
             let text = format!("expected `=` behind {}, found {}", place.name, cursor.found());
             return Err(Error::syntax(cursor.at(), text));
         }
@@ -128,7 +129,9 @@ fn axis<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<Wo
     }
     *cursor = start.moved(start.at() + 1);
     let value = expression(cursor).map_err(|error| {
-        if error.at > start.at() + name.len() {
+        // The value is wrong, or what looks like the name of an axis has none.
+        let is_name = name[1..].starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == '_');
+        if !is_name || error.at >= start.at() + name.len() {
             return error;
         }
         let text = format!(

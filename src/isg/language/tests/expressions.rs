@@ -90,7 +90,10 @@ fn what_has_no_value_is_refused() {
 /// SG-24, B24: the variables of axis coupling are read when everything before has been executed, and never written.
 #[test]
 fn variables_of_axis_coupling_are_read_and_never_written() {
-    let mut channel = Channel::new(&[("part.nc", "N10 G1 X1\nN20 $IF V.G.AX_LINK.ACTIVE\nN30 #AX LINK OFF[V.G.AX_LINK.NR]\nN40 $ENDIF\n")]);
+    let mut channel = Channel::new(&[(
+        "part.nc",
+        "N10 G1 X1\nN20 $IF V.G.AX_LINK.ACTIVE\nN30 #AX LINK OFF[V.G.AX_LINK.NR]\nN40 $ENDIF\n",
+    )]);
     let mut interpreter = Interpreter::new("PART.NC.MPF", false);
     channel.is_executed = false;
     assert!(matches!(interpreter.next(&mut channel), Ok(Prepared::Block(_))));

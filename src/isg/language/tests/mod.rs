@@ -13,9 +13,7 @@ mod words;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::isg::language::{
-    Block, Command, Environment, Fault, Interpreter, Prepared, Refusal, Variables, is_called,
-};
+use crate::isg::language::{Block, Command, Environment, Fault, Interpreter, Prepared, Refusal, Variables, is_called};
 use crate::nc_program::{Program, ProgramKind};
 
 /// A channel for tests.

@@ -22,7 +22,10 @@ fn words_have_letters_names_and_values() {
     let block = blocks("G02 X20 Y20 I10 J-10.5 K.5").remove(0);
     assert_eq!((block.centre, block.origin.block()), ([Some(10.0), Some(-10.5), Some(0.5)], 1));
     let block = blocks("T10 D10 S1000 H4 M3 M08").remove(0);
-    assert_eq!((block.tool, block.tool_data, block.spindle, block.h, block.m), (Some(10.0), Some(10.0), Some(1000.0), vec![4], vec![3, 8]));
+    assert_eq!(
+        (block.tool, block.tool_data, block.spindle, block.h, block.m),
+        (Some(10.0), Some(10.0), Some(1000.0), vec![4], vec![3, 8])
+    );
 }
 
 #[test]
@@ -135,7 +138,10 @@ fn a_dwell_time_is_in_seconds_and_alone() {
     }
     let block = blocks("G04 X2 Y3").remove(0);
     let warnings: Vec<_> = block.warnings.iter().map(|warning| (warning.code.to_string(), warning.column)).collect();
-    assert_eq!((block.dwell, warnings), (Some(Dwell { seconds: 2.0, axis: Some("X".to_owned()) }), vec![("20685".to_owned(), 8)]));
+    assert_eq!(
+        (block.dwell, warnings),
+        (Some(Dwell { seconds: 2.0, axis: Some("X".to_owned()) }), vec![("20685".to_owned(), 8)])
+    );
 }
 
 /// HG-30: the numbers are the order.
@@ -159,7 +165,8 @@ fn a_program_ends_with_m30_m02_or_its_text() {
 
 #[test]
 fn assignments_are_made_in_their_order() {
-    let block = blocks("P10=20.5 P11=P10*2 X=P11\nV.L.A=1 V.P.B=2\nV.S.KEPT=V.L.A+V.P.B\nY=V.S.KEPT P5[1+1]=9\nZ=P5[2]");
+    let block =
+        blocks("P10=20.5 P11=P10*2 X=P11\nV.L.A=1 V.P.B=2\nV.S.KEPT=V.L.A+V.P.B\nY=V.S.KEPT P5[1+1]=9\nZ=P5[2]");
     assert_eq!(block[0].axes, named(&[("X", 41.0)]));
     assert_eq!((&block[1].axes, &block[2].axes), (&named(&[("Y", 3.0)]), &named(&[("Z", 9.0)])));
 }

@@ -1,0 +1,39 @@
+//! The static check.
+
+use std::sync::Arc;
+
+use super::program;
+use crate::isg::language::check;
+
+fn found(text: &str) -> Vec<(u32, u32, String, bool)> {
+    let others = [Arc::new(program("sub.nc", "M17"))];
+    let row = |finding: &crate::isg::language::Finding| {
+        (finding.fault.line, finding.fault.column, finding.fault.code.to_string(), finding.is_warning)
+    };
+    check(&program("part.nc", text), &others, false).iter().map(row).collect()
+}
+
+#[test]
+fn every_line_has_its_first_error() {
+    let text = "%L UP\nN10 XX YY\nM30\n%MAIN\nX=P1/0\nLL UP\nLL DOWN\nL SUB\nL OTHER\n$GOTO [A]\n#FOO\nV.G.AX_LINK.NR=1\n$IF P1\n$ENDFOR\n";
+    let error = |line, column, code: &str| (line, column, code.to_owned(), false);
+    let wanted = [
+        error(2, 5, "nc-syntax"),
+        (3, 1, "nc-call".to_owned(), true),
+        // P1/0: P1 is not known, and the division is not made.
+        error(7, 1, "nc-call"),
+        error(9, 1, "nc-call"),
+        error(10, 1, "nc-syntax"),
+        error(11, 1, "nc-syntax"),
+        error(12, 1, "nc-value"),
+        error(13, 1, "nc-syntax"),
+        error(14, 1, "nc-syntax"),
+    ];
+    assert_eq!(found(text), wanted);
+}
+
+#[test]
+fn what_only_a_run_knows_is_no_error() {
+    let text = "N10 #AX LINK NBR[P1, [P2 = P3, P4, P5], P6=P7]\n#SET AX LINK[P1, [Y2=Y1,G,P1,P2]]\nX=SQRT[P1] G74 Y=P2\nG04 P1\n#CALL AX [A1, P1, P2]\n$FOR P1=P2,P3,P4\nX=P1[P2]\n$ENDFOR\n/ $GOTO N10\nN10:";
+    assert_eq!(found(text), []);
+}
