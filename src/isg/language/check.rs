@@ -219,6 +219,8 @@ impl<'a> Checker<'a> {
             | Flow::While(_)
             | Flow::EndWhile
             | Flow::Do
+            | Flow::Repeat
+            | Flow::Until(_)
             | Flow::EndDo(_) => return Ok(()),
         };
         if is_inside {

@@ -111,23 +111,15 @@ impl Interpreter {
                 let line = self.innermost(Structure::While, "ENDWHILE", at)?.line;
                 self.closed(Structure::While, at, line)
             }
-            Flow::Do => {
-                part(Structure::Do, next, &[], at, work, environment)?;
-                self.open(opened(Structure::Do, work));
-                self.go_to(next);
-                Ok(())
-            }
+            Flow::Do => self.begin(Structure::Do, at, work, environment),
+            Flow::Repeat => self.begin(Structure::Repeat, at, work, environment),
             Flow::EndDo(condition) => {
-                let open = self.innermost(Structure::Do, "ENDDO", at)?;
-                let goes_on = match condition {
-                    Some(condition) => is_true(self.value(condition, environment)?),
-                    None => true,
-                };
-                if goes_on {
-                    self.go_to(open.next);
-                    return Ok(());
-                }
-                self.closed(Structure::Do, at, next)
+                let condition = condition.as_ref().map(|condition| self.value(condition, environment)).transpose()?;
+                self.again(Structure::Do, condition.is_none_or(is_true), at, next)
+            }
+            Flow::Until(condition) => {
+                let is_done = is_true(self.value(condition, environment)?);
+                self.again(Structure::Repeat, !is_done, at, next)
             }
             Flow::Break => {
                 self.keep(|structure| structure.is_loop() || structure == Structure::Switch, "BREAK", at)?;
@@ -212,6 +204,30 @@ impl Interpreter {
         let index = level.open.iter().rposition(|open| is_kind(open.structure)).ok_or_else(error)?;
         level.open.truncate(index + 1);
         level.open.last().cloned().ok_or_else(error)
+    }
+
+    /// A loop that tests its condition at the end.
+    fn begin(
+        &mut self,
+        structure: Structure,
+        at: usize,
+        work: &Work<'_>,
+        environment: &dyn Environment,
+    ) -> Result<(), Error> {
+        part(structure, work.line.next, &[], at, work, environment)?;
+        self.open(opened(structure, work));
+        self.go_to(work.line.next);
+        Ok(())
+    }
+
+    /// The end of such a loop.
+    fn again(&mut self, structure: Structure, goes_on: bool, at: usize, next: u32) -> Result<(), Error> {
+        if goes_on {
+            let first = self.innermost(structure, structure.words()[1], at)?.next;
+            self.go_to(first);
+            return Ok(());
+        }
+        self.closed(structure, at, next)
     }
 
     /// `$ENDFOR`

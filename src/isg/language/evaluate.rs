@@ -147,6 +147,9 @@ fn apply(function: Function, x: f64, second: f64) -> Option<f64> {
         Function::Fraction => Some(x - x.trunc()),
         Function::Round => Some(x.round()),
         Function::Not => Some(if is_true(x) { 0.0 } else { 1.0 }),
+        Function::Invert => bits(x, -1.0, 0, |x, ones| x ^ ones).ok(),
+        Function::Ceiling => Some(x.ceil()),
+        Function::Floor => Some(x.floor()),
         Function::Minimum => Some(x.min(second)),
         Function::Maximum => Some(x.max(second)),
     }

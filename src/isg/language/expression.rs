@@ -95,12 +95,15 @@ pub(super) enum Function {
     Fraction,
     Round,
     Not,
+    Invert,
+    Ceiling,
+    Floor,
     Minimum,
     Maximum,
 }
 
 /// Functions and how many arguments they have.
-const FUNCTIONS: [(&str, Function, usize); 22] = [
+const FUNCTIONS: [(&str, Function, usize); 25] = [
     ("ABS", Function::Abs, 1),
     ("SQR", Function::Square, 1),
     ("SQRT", Function::Root, 1),
@@ -121,6 +124,9 @@ const FUNCTIONS: [(&str, Function, usize); 22] = [
     ("FRACT", Function::Fraction, 1),
     ("ROUND", Function::Round, 1),
     ("NOT", Function::Not, 1),
+    ("INV", Function::Invert, 1),
+    ("CEIL", Function::Ceiling, 1),
+    ("FLOOR", Function::Floor, 1),
     ("MIN", Function::Minimum, 2),
     ("MAX", Function::Maximum, 2),
 ];
@@ -147,6 +153,7 @@ pub(super) fn is_place(cursor: &Cursor<'_>) -> bool {
     let follows =
         |letter: char, next: fn(char) -> bool| rest.strip_prefix(letter).is_some_and(|rest| rest.starts_with(next));
     follows('P', |next| next.is_ascii_digit())
+        || follows('p', |next| next.is_ascii_digit())
         || follows('V', |next| next == '.')
             && rest[2..].starts_with(|next: char| next.is_ascii_alphabetic() || next == '_')
 }
@@ -229,6 +236,7 @@ impl Parser<'_, '_> {
         let name = self.cursor.name();
         match name {
             "TRUE" => return Ok(Expression::Number(1.0)),
+            "PI" => return Ok(Expression::Number(std::f64::consts::PI)),
             "FALSE" => return Ok(Expression::Number(0.0)),
             _ => {}
         }
@@ -266,7 +274,7 @@ impl Parser<'_, '_> {
         }
         let at = self.cursor.at();
         let mut place = Place { name: String::new(), indices: Vec::new(), at };
-        if self.cursor.peek() == Some('P') {
+        if matches!(self.cursor.peek(), Some('P' | 'p')) {
             self.cursor.step();
             let digits = self.cursor.digits().trim_start_matches('0');
             if digits.is_empty() {

@@ -1,4 +1,4 @@
-//! Control blocks: `$IF`, `$SWITCH`, `$FOR`, `$WHILE`, `$DO` and what belongs to them.
+//! Control blocks: `$IF`, `$SWITCH`, `$FOR`, `$WHILE`, `$DO`, `$REPEAT` and what belongs to them.
 
 use super::cursor::Cursor;
 use super::expression::{expression, place};
@@ -60,12 +60,14 @@ pub(super) fn flow(cursor: &mut Cursor<'_>) -> Result<Option<Flow>, Error> {
         "ENDWHILE" => Flow::EndWhile,
         "DO" => Flow::Do,
         "ENDDO" => Flow::EndDo(if cursor.is_end() { None } else { Some(expression(cursor)?) }),
+        "REPEAT" => Flow::Repeat,
+        "UNTIL" => Flow::Until(expression(cursor)?),
         "BREAK" => Flow::Break,
         "CONTINUE" => Flow::Continue,
         _ => {
             let text = format!(
                 "${name} is no control block; there are $IF, $ELSEIF, $ELSE, $ENDIF, $SWITCH, $CASE, $DEFAULT, $ENDSWITCH, $FOR, $ENDFOR, $WHILE, \
-                 $ENDWHILE, $DO, $ENDDO, $BREAK, $CONTINUE, $GOTO"
+                 $ENDWHILE, $DO, $ENDDO, $REPEAT, $UNTIL, $BREAK, $CONTINUE, $GOTO"
             );
             return Err(Error::syntax(at, text));
         }

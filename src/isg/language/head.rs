@@ -70,7 +70,7 @@ pub(super) fn head(text: &str) -> Result<Head, Error> {
 pub(super) fn number(cursor: &mut Cursor<'_>) -> Result<Option<u32>, Error> {
     let mut next = *cursor;
     let at = next.at();
-    if !next.eat("N") {
+    if !next.eat("N") && !next.eat("n") {
         return Ok(None);
     }
     let digits = next.digits();
@@ -82,20 +82,19 @@ pub(super) fn number(cursor: &mut Cursor<'_>) -> Result<Option<u32>, Error> {
     Ok(Some(number))
 }
 
-/// `[NAME]`
+/// `[NAME]`; case does not matter.
 pub(super) fn label(cursor: &mut Cursor<'_>) -> Result<String, Error> {
     cursor.expect("[", "before a label")?;
-    cursor.skip_blanks();
     let at = cursor.at();
-    let name = cursor.name();
-    if name.is_empty() {
-        return Err(Error::syntax(at, format!("expected the name of a label, found {}", cursor.found())));
-    }
+    let name = cursor.while_letters(|letter| letter != ']').trim();
     cursor.expect("]", "behind a label")?;
-    Ok(name.to_owned())
+    if name.is_empty() {
+        return Err(Error::syntax(at, "the brackets of a label are empty; write a name, as in `[END]`"));
+    }
+    Ok(name.to_uppercase())
 }
 
-/// The header line of a program.
+/// The header line of a program. That of a main program may lack the name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Header<'a> {
     /// `%NAME`
@@ -118,11 +117,10 @@ pub(super) fn header(text: &str) -> Result<Option<Header<'_>>, Error> {
     cursor.skip_blanks();
     let at = cursor.at();
     let name = program_name(&mut cursor);
-    if name.is_empty() {
-        let form = if is_subroutine { "`%L NAME`" } else { "`%NAME`" };
+    if name.is_empty() && is_subroutine {
         return Err(Error::syntax(
             at,
-            format!("expected the name of a program, as in {form}; found {}", cursor.found()),
+            format!("expected the name of a subroutine, as in `%L NAME`; found {}", cursor.found()),
         ));
     }
     cursor.expect_end("the name of a program")?;

@@ -31,7 +31,7 @@
 //!
 //! | question | here |
 //! |---|---|
-//! | case | words, commands and names of axes in capitals, as the manuals write them; names of functions (`sin[30]`) and programs in any case |
+//! | case | commands, control blocks, `V.` variables and names of axes in capitals, as the manuals write them; addresses (`g01`), functions (`sin[30]`), labels and names of programs in any case |
 //! | blanks | allowed between an address and its value |
 //! | calls | 20 deep |
 //! | an unclosed `(` | ends with its line; `lenient`: reaches over lines that are no blocks if one of them closes it |

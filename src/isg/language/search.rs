@@ -16,6 +16,7 @@ pub(super) enum Structure {
     For,
     While,
     Do,
+    Repeat,
 }
 
 impl Structure {
@@ -27,14 +28,15 @@ impl Structure {
             Self::For => ["FOR", "ENDFOR"],
             Self::While => ["WHILE", "ENDWHILE"],
             Self::Do => ["DO", "ENDDO"],
+            Self::Repeat => ["REPEAT", "UNTIL"],
         }
     }
 
     pub(super) fn is_loop(self) -> bool {
-        matches!(self, Self::For | Self::While | Self::Do)
+        matches!(self, Self::For | Self::While | Self::Do | Self::Repeat)
     }
 
-    const ALL: [Self; 5] = [Self::If, Self::Switch, Self::For, Self::While, Self::Do];
+    const ALL: [Self; 6] = [Self::If, Self::Switch, Self::For, Self::While, Self::Do, Self::Repeat];
 }
 
 /// What a line means for control blocks.

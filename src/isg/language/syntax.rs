@@ -160,6 +160,8 @@ pub(super) enum Flow {
     EndWhile,
     Do,
     EndDo(Option<Expression>),
+    Repeat,
+    Until(Expression),
     Break,
     Continue,
 }
@@ -238,6 +240,7 @@ impl Flow {
             | Self::ElseIf(value)
             | Self::Case(value)
             | Self::While(value)
+            | Self::Until(value)
             | Self::EndDo(Some(value)) => {
                 value.for_each_variable(call);
             }
@@ -256,6 +259,7 @@ impl Flow {
             | Self::EndFor
             | Self::EndWhile
             | Self::Do
+            | Self::Repeat
             | Self::EndDo(None)
             | Self::Break
             | Self::Continue => {}

@@ -46,7 +46,7 @@ fn time(cursor: &mut Cursor<'_>, is_dwell: bool) -> Result<Option<WordKind>, Err
     if !is_dwell {
         return Ok(None);
     }
-    if cursor.peek() == Some('S') {
+    if matches!(cursor.peek(), Some('S' | 's')) {
         let text = "a dwell time in revolutions (`G04 S…`) is not modelled; write seconds, `G04 2.5`";
         return Err(Error::syntax(cursor.at(), text));
     }
@@ -78,7 +78,7 @@ fn word(cursor: &mut Cursor<'_>) -> Result<WordKind, Error> {
     }
     // Words may follow each other without a blank: G01X20.
     let after_letter = start.moved(at + 1);
-    match letter {
+    match letter.to_ascii_uppercase() {
         'G' | 'M' => {
             let mut end = after_letter;
             let digits = end.digits();
@@ -92,12 +92,12 @@ fn word(cursor: &mut Cursor<'_>) -> Result<WordKind, Error> {
                     format!("the number of a function is at most {LARGEST_FUNCTION}, found {letter}{digits}"),
                 )
             })?;
-            Ok(if letter == 'G' { WordKind::G(function) } else { WordKind::M(function) })
+            Ok(if letter.eq_ignore_ascii_case(&'G') { WordKind::G(function) } else { WordKind::M(function) })
         }
         'L' => call(name, start, cursor),
         'E' => Err(Error::syntax(at, "the feed at the end of a block (E) is not modelled; write F")),
         _ => {
-            let address = match letter {
+            let address = match letter.to_ascii_uppercase() {
                 'F' => Address::F,
                 'I' => Address::I,
                 'J' => Address::J,
@@ -145,7 +145,7 @@ fn axis<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<Wo
 
 /// `LL NAME`, `L NAME`, `L "NAME"`, `L4712`.
 fn call<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<WordKind, Error> {
-    let rest = name.trim_start_matches('L');
+    let rest = name.trim_start_matches(['L', 'l']);
     let letters = name.len() - rest.len();
     if letters > 2 || !rest.chars().all(|letter| letter.is_ascii_digit()) {
         return Err(unknown(start));
@@ -204,7 +204,7 @@ pub(super) fn target(cursor: &mut Cursor<'_>) -> Result<Target, Error> {
 fn unknown(start: Cursor<'_>) -> Error {
     let text = format!(
         "{} is not a word of an NC block; words are G, M, an address with a value (X20, F300, T10), NAME=value, P10=…, V.…=…, L NAME, LL NAME, \
-         all in capitals",
+         names of axes in capitals",
         start.found()
     );
     Error::syntax(start.at(), text)

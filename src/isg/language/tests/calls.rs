@@ -68,6 +68,7 @@ fn a_file_of_subroutines_has_no_main_program() {
     let (code, line, column, text) = fault("%L A\nM17\n%L B\nM17\n(end)");
     assert_eq!((code.as_str(), line, column), ("nc-syntax", 3, 1));
     assert!(text.starts_with("the file has subroutines and no main program"), "{text}");
-    assert_eq!(fault("%\nX1").1, 1);
+    assert_eq!(order(&[("part.nc", "%L A\nM17\n%\nN10 X1")]), [10]);
+    assert_eq!(fault("%L\nX1").1, 1);
     assert_eq!(fault("%A B\nX1").1, 1);
 }

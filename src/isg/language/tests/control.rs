@@ -45,6 +45,7 @@ fn loops_count_and_test() {
     assert_eq!(trace("$FOR P1= 3, 1, 1\nX=P1\n$ENDFOR\nX9"), "9");
     assert_eq!(trace("$FOR V.L.I[2] = 1, 2, 1\n$FOR P2=1,2,1\nX=V.L.I[2]*10+P2\n$ENDFOR\n$ENDFOR"), "11 12 21 22");
     assert_eq!(trace("P1=0\n$WHILE P1 < 3\nX=P1 P1=P1+1\n$ENDWHILE\nX9"), "0 1 2 9");
+    assert_eq!(trace("P2=10 P1=8\n$REPEAT\nP1=P1+1\nXP1\n$UNTIL P1 > P2\nX0"), "9 10 11 0");
     assert_eq!(trace("P1=9\n$DO\nX=P1 P1=P1+1\n$ENDDO P1 < 3\nX0"), "9 0");
     assert_eq!(
         trace("P1=0\n$DO\nP1=P1+1\n$IF P1 == 2\n$CONTINUE\n$ENDIF\nX=P1\n$IF P1 > 3\n$BREAK\n$ENDIF\n$ENDDO\nX0"),
@@ -56,7 +57,7 @@ fn loops_count_and_test() {
 #[test]
 fn jumps_find_labels_of_their_level_in_both_directions() {
     assert_eq!(trace("P1=0\nN20: X=P1 P1=P1+1\n$IF P1 < 3 $GOTO N20\nX9"), "0 1 2 9");
-    assert_eq!(trace("X1 $GOTO [END]\nX2\n[END] X3"), "1 3");
+    assert_eq!(trace("X1 $GOTO [End]\nX2\n[END] X3"), "1 3");
     assert_eq!(trace("$GOTO [IN]\nX1\n$IF 0\nX2\n[IN] X3\n$ELSE\nX4\n$ENDIF\nX5"), "3 5");
     assert_eq!(trace("$FOR P1=1,3,1\n$IF P1 == 2\n$GOTO [OUT]\n$ENDIF\nX=P1\n$ENDFOR\n[OUT]\nX9"), "1 9");
     // N20 without a colon is no label.

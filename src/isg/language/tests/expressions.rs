@@ -58,6 +58,9 @@ fn functions_take_degrees_and_are_exact_where_they_can_be() {
         ("LOG[1000]", 3.0),
         ("DEXP[3]", 1000.0),
         ("EXP[0] + LN[1]", 1.0),
+        ("CEIL[1.2] + FLOOR[-1.2]", 0.0),
+        ("INV[5]", -6.0),
+        ("COS[180 * PI / PI]", -1.0),
         ("MIN[2, 3] * MAX[2, 3]", 6.0),
     ] {
         assert_eq!(value(expression), wanted, "{expression}");

@@ -40,6 +40,8 @@ fn a_value_is_a_number_or_an_expression_with_or_without_an_equals_sign() {
         ("P1=7 XP1", 7.0),
         ("P1=7 X=P1*2", 14.0),
         ("G1X20M8", 20.0),
+        ("n10 g1 X20 f100 p1=2", 20.0),
+        ("p1=3 X=p1", 3.0),
     ] {
         assert_eq!(axes(line), named(&[("X", value)]), "{line}");
     }
@@ -55,7 +57,7 @@ fn what_is_no_word_is_refused_with_its_column() {
         ("G01 XX", "nc-syntax", 5),
         ("N10 master and slave", "nc-syntax", 5),
         ("Default", "nc-syntax", 1),
-        ("g01", "nc-syntax", 1),
+        ("x10", "nc-syntax", 1),
         ("G", "nc-syntax", 1),
         ("M70000", "nc-syntax", 1),
         ("X10 X20", "nc-syntax", 5),
