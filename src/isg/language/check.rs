@@ -2,18 +2,19 @@
 //!
 //! Values that only a run knows are no errors, nor are names of axes. Blocks that are skipped or jumped over are read, too.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::nc_program::{Program, normalised};
 
 use super::compose::{Composed, compose, compose_command};
 use super::fault::{Error, Fault, FaultCode};
-use super::head::{Header, head, header};
+use super::head::{Header, Target, head, header};
 use super::interpreter::{fault, fault_in, hidden};
 use super::lines::Line;
 use super::parse::content;
 use super::scope::{Scope, Store, is_read_only};
-use super::search::{Mark, Part, Structure, Text, mark};
+use super::search::{DEEPEST, Mark, Opened, Part, Structure, Text, mark, too_deep};
 use super::syntax::{Content, Flow};
 
 /// A finding of the check.
@@ -34,7 +35,8 @@ pub fn check(program: &Program, others: &[Arc<Program>], lenient: bool) -> Vec<F
         text,
         others,
         main: main.as_ref().map_or(0, |line| *line),
-        section: 1,
+        subroutines: text.subroutines(),
+        labels: BTreeMap::new(),
         is_subroutine: false,
         open: Vec::new(),
         findings: Vec::new(),
@@ -42,6 +44,7 @@ pub fn check(program: &Program, others: &[Arc<Program>], lenient: bool) -> Vec<F
     if let Err((line, error)) = main {
         checker.findings.push(Finding { fault: fault_in(program, line, error), is_warning: false });
     }
+    checker.enter(1, false);
     let mut number = 1;
     while let Some(line) = Line::read(program, number, lenient) {
         number = checker.line(&line);
@@ -66,10 +69,12 @@ struct Checker<'a> {
     others: &'a [Arc<Program>],
     /// The first line of the main program; 0: there is none.
     main: u32,
-    /// The first line of the section: main program or subroutine.
-    section: u32,
+    /// Local subroutines, in capitals.
+    subroutines: BTreeSet<String>,
+    /// Labels of the section (main program or subroutine), with the lines of the loops around them.
+    labels: BTreeMap<Target, Vec<u32>>,
     is_subroutine: bool,
-    open: Vec<(Structure, Part)>,
+    open: Vec<Opened>,
     findings: Vec<Finding>,
 }
 
@@ -78,8 +83,7 @@ impl<'a> Checker<'a> {
     fn line(&mut self, line: &Line<'a>) -> u32 {
         if line.line == self.main {
             // It may follow a subroutine without a header line.
-            self.unclosed();
-            (self.section, self.is_subroutine) = (self.main, false);
+            self.enter(self.main, false);
         }
         let mut block = None;
         let mut next = line.next;
@@ -94,6 +98,20 @@ impl<'a> Checker<'a> {
         next
     }
 
+    /// A new section begins.
+    fn enter(&mut self, section: u32, is_subroutine: bool) {
+        self.unclosed();
+        self.is_subroutine = is_subroutine;
+        self.labels.clear();
+        let labels = &mut self.labels;
+        self.text.each_label(section, &mut |label, _, open| {
+            let loops = open.iter().filter(|(structure, _)| structure.is_loop()).take(DEEPEST);
+            // Of two equal labels the first one counts.
+            labels.entry(label.clone()).or_insert_with(|| loops.map(|(_, part)| part.line).collect());
+            true
+        });
+    }
+
     fn read(
         &mut self,
         line: &Line<'a>,
@@ -105,13 +123,15 @@ impl<'a> Checker<'a> {
             return Ok(());
         }
         if let Some(header) = header(&line.text)? {
-            self.unclosed();
-            self.section = line.next;
-            self.is_subroutine = matches!(header, Header::Subroutine(_));
+            self.enter(line.next, matches!(header, Header::Subroutine(_)));
             return Ok(());
         }
         let head = head(&line.text)?;
         *block = head.number;
+        if line.begins_comment().is_some() && line.comment_end().is_none() {
+            // All lines behind it are hidden.
+            *next = self.text.program.count().saturating_add(1);
+        }
         if let Some(behind) = hidden(line)? {
             *next = behind;
             return Ok(());
@@ -150,7 +170,7 @@ impl<'a> Checker<'a> {
         }
         let Some((name, is_local, at)) = composed.call else { return Ok(()) };
         let is_known = match is_local {
-            true => self.text.subroutine(&name).is_some(),
+            true => self.subroutines.contains(&name.to_ascii_uppercase()),
             false => is_called(&name, self.text.program) || self.others.iter().any(|other| is_called(&name, other)),
         };
         let text = match is_local {
@@ -160,17 +180,18 @@ impl<'a> Checker<'a> {
         if is_known { Ok(()) } else { Err(Error::new(FaultCode::Call, at, text)) }
     }
 
-    fn jump(&self, target: &super::head::Target, at: usize) -> Result<(), Error> {
-        let found = self.text.label(self.section, target);
-        let Some((_, open)) = found else {
+    fn jump(&self, target: &Target, at: usize) -> Result<(), Error> {
+        let Some(loops) = self.labels.get(target) else {
             return Err(Error::syntax(at, format!("this program level has no label {target}")));
         };
         let is_entered = |line: u32| self.open.iter().any(|(_, part)| part.line == line);
-        match open.iter().find(|(structure, part)| structure.is_loop() && !is_entered(part.line)) {
-            Some((_, part)) => Err(Error::syntax(
-                at,
-                format!("the label {target} lies inside a loop that begins in line {}", part.line),
-            )),
+        match loops.iter().find(|line| !is_entered(**line)) {
+            Some(line) => {
+                let text = format!(
+                    "the label {target} lies inside a loop that begins in line {line}; a jump cannot begin a loop"
+                );
+                Err(Error::syntax(at, text))
+            }
             None => Ok(()),
         }
     }
@@ -180,7 +201,7 @@ impl<'a> Checker<'a> {
         match mark {
             Some(Mark::Open(structure)) => {
                 self.open.push((structure, Part { line: line.line, next: line.next }));
-                Ok(())
+                if self.open.len() > DEEPEST { Err(too_deep(at)) } else { Ok(()) }
             }
             Some(Mark::Close(structure)) => match self.open.last() {
                 Some((open, _)) if *open == structure => {
@@ -205,8 +226,7 @@ impl<'a> Checker<'a> {
             Flow::Case(_) => ("CASE", innermost == Some(Structure::Switch)),
             Flow::Default => ("DEFAULT", innermost == Some(Structure::Switch)),
             Flow::Break => {
-                let is_left =
-                    |(structure, _): &(Structure, Part)| structure.is_loop() || *structure == Structure::Switch;
+                let is_left = |(structure, _): &Opened| structure.is_loop() || *structure == Structure::Switch;
                 ("BREAK", self.open.iter().any(is_left))
             }
             Flow::Continue => ("CONTINUE", self.open.iter().any(|(structure, _)| structure.is_loop())),

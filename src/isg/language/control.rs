@@ -8,7 +8,7 @@ use super::expression::Expression;
 use super::fault::Error;
 use super::interpreter::Work;
 use super::scope::Store;
-use super::search::{Part, Structure, Text};
+use super::search::{DEEPEST, Part, Structure, Text, too_deep};
 use super::state::{Interpreter, Open};
 use super::syntax::Flow;
 use super::variables::Environment;
@@ -91,8 +91,8 @@ impl Interpreter {
                 if is_passed(from, to, step) {
                     self.go_to(end.next);
                 } else {
-                    self.open(Open { value: to, step, variable: name, ..opened(Structure::For, work) });
                     self.go_to(next);
+                    self.open(Open { value: to, step, variable: name, ..opened(Structure::For, work) }, at)?;
                 }
                 Ok(())
             }
@@ -100,8 +100,8 @@ impl Interpreter {
             Flow::While(condition) => {
                 let end = part(Structure::While, next, &[], at, work, environment)?;
                 if is_true(self.value(condition, environment)?) {
-                    self.open(opened(Structure::While, work));
                     self.go_to(next);
+                    self.open(opened(Structure::While, work), at)?;
                 } else {
                     self.go_to(end.next);
                 }
@@ -138,10 +138,13 @@ impl Interpreter {
         evaluate(expression, &self.scope(environment, &Store::new()))
     }
 
-    fn open(&mut self, open: Open) {
-        if let Some(level) = self.levels.last_mut() {
-            level.open.push(open);
+    fn open(&mut self, open: Open, at: usize) -> Result<(), Error> {
+        let Some(level) = self.levels.last_mut() else { return Ok(()) };
+        if level.open.len() >= DEEPEST {
+            return Err(too_deep(at));
         }
+        level.open.push(open);
+        Ok(())
     }
 
     fn close(&mut self) {
@@ -172,8 +175,7 @@ impl Interpreter {
         let words: &[&str] = if open.structure == Structure::If { &["ELSEIF", "ELSE"] } else { &["CASE", "DEFAULT"] };
         let next = part(open.structure, work.line.next, words, at, work, environment)?;
         self.go_to(if open.is_searching { next.line } else { work.line.next });
-        self.open(open);
-        Ok(())
+        self.open(open, at)
     }
 
     /// `$ELSE`: enters the branch, or leaves the control block because another branch was taken.
@@ -215,9 +217,8 @@ impl Interpreter {
         environment: &dyn Environment,
     ) -> Result<(), Error> {
         part(structure, work.line.next, &[], at, work, environment)?;
-        self.open(opened(structure, work));
         self.go_to(work.line.next);
-        Ok(())
+        self.open(opened(structure, work), at)
     }
 
     /// The end of such a loop.

@@ -22,8 +22,9 @@ pub enum FaultCode {
 }
 
 /// The published numbers that the language can report, with their meaning. 20685 and 21111 are warnings.
-pub const NUMBERS: [(u32, &str); 10] = [
+pub const NUMBERS: [(u32, &str); 11] = [
     (DWELL_TWICE, "dwell time both directly and with an axis"),
+    (CONTROL_DEPTH, "control blocks nested too deeply"),
     (SLAVE_IS_MASTER, "slave axis equals its master axis"),
     (SLAVE_TWICE, "slave axis listed twice"),
     (SLAVE_AND_MASTER, "axis is both master and slave"),
@@ -36,6 +37,7 @@ pub const NUMBERS: [(u32, &str); 10] = [
 ];
 
 pub(super) const DWELL_TWICE: u32 = 20013;
+pub(super) const CONTROL_DEPTH: u32 = 20211;
 pub(super) const SLAVE_IS_MASTER: u32 = 20475;
 pub(super) const SLAVE_TWICE: u32 = 20476;
 pub(super) const SLAVE_AND_MASTER: u32 = 20477;

@@ -16,7 +16,7 @@ pub(super) struct Head {
 }
 
 /// A jump label.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Target {
     /// `N20:`
     Number(u32),

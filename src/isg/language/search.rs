@@ -2,9 +2,11 @@
 //!
 //! They are searched in the text when they are needed, so a program of any size needs no more memory than its text.
 
+use std::collections::BTreeSet;
+
 use crate::nc_program::Program;
 
-use super::fault::Error;
+use super::fault::{CONTROL_DEPTH, Error, FaultCode};
 use super::head::{Head, Header, Target, head, header, is_header};
 use super::lines::{Line, Lines};
 
@@ -37,6 +39,15 @@ impl Structure {
     }
 
     const ALL: [Self; 6] = [Self::If, Self::Switch, Self::For, Self::While, Self::Do, Self::Repeat];
+}
+
+/// Control blocks inside each other; no source gives the number of a control.
+pub(super) const DEEPEST: usize = 50;
+
+/// The error of a control block too many.
+pub(super) fn too_deep(at: usize) -> Error {
+    let text = format!("control blocks are nested more than {DEEPEST} deep; write the inner ones as a subroutine");
+    Error::new(FaultCode::Number(CONTROL_DEPTH), at, text)
 }
 
 /// What a line means for control blocks.
@@ -134,17 +145,29 @@ impl<'a> Text<'a> {
     pub(super) fn subroutine(self, name: &str) -> Option<u32> {
         let is_it = |line: &Line<'_>| match header(&line.text) {
             Ok(Some(Header::Subroutine(found))) => found.eq_ignore_ascii_case(name),
-            _ => false,
+            Ok(Some(Header::Main) | None) | Err(_) => false,
         };
         self.lines(1).find(is_it).map(|line| line.next)
     }
 
     /// The line of a label in the section that begins at a line, and the control blocks that are open there, with their lines.
-    pub(super) fn label(self, section: u32, target: &Target) -> Option<(u32, Vec<(Structure, Part)>)> {
+    pub(super) fn label(self, section: u32, target: &Target) -> Option<(u32, Vec<Opened>)> {
+        let mut found = None;
+        self.each_label(section, &mut |label, line, open| {
+            if label == target {
+                found = Some((line, open.to_vec()));
+            }
+            found.is_none()
+        });
+        found
+    }
+
+    /// Calls a function for each label of a section, with its line and the control blocks that are open there, as long as it returns true.
+    pub(super) fn each_label(self, section: u32, call: &mut dyn FnMut(&Target, u32, &[Opened]) -> bool) {
         let mut open = Vec::new();
         for (line, head) in self.section(section) {
-            if head.label.as_ref() == Some(target) {
-                return Some((line.line, open));
+            if head.label.as_ref().is_some_and(|label| !call(label, line.line, &open)) {
+                return;
             }
             match mark(&line.text, &head) {
                 Some(Mark::Open(structure)) => open.push((structure, Part { line: line.line, next: line.next })),
@@ -154,7 +177,15 @@ impl<'a> Text<'a> {
                 Some(Mark::Other(_)) | None => {}
             }
         }
-        None
+    }
+
+    /// The names of all local subroutines, in capitals.
+    pub(super) fn subroutines(self) -> BTreeSet<String> {
+        let name = |line: Line<'_>| match header(&line.text) {
+            Ok(Some(Header::Subroutine(name))) => Some(name.to_ascii_uppercase()),
+            Ok(Some(Header::Main) | None) | Err(_) => None,
+        };
+        self.lines(1).filter_map(name).collect()
     }
 
     /// The first line from here on, outside further control blocks, that has one of these words or closes the control block.
@@ -178,7 +209,10 @@ impl<'a> Text<'a> {
     }
 }
 
-/// A line that a control block goes on with.
+/// A control block and the line that opens it.
+pub(super) type Opened = (Structure, Part);
+
+/// A line of a control block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub(super) line: u32,

@@ -88,10 +88,19 @@ fn control_blocks_that_do_not_fit_are_refused() {
         ("$IF 1 X1\n$ENDIF", 1),
         ("X1 $IF 1\n$ENDIF", 1),
         ("$CASE 1", 1),
+        ("$UNTIL 1", 1),
     ] {
         let (code, number, ..) = fault(text);
         assert_eq!((code.as_str(), number), ("nc-syntax", line), "{text}");
     }
+}
+
+#[test]
+fn control_blocks_are_nested_fifty_deep_at_most() {
+    let nested = |depth: usize| format!("{}X1\n{}", "$IF 1\n".repeat(depth), "$ENDIF\n".repeat(depth));
+    assert_eq!(trace(&nested(50)), "1");
+    let (code, line, ..) = fault(&nested(51));
+    assert_eq!((code.as_str(), line), ("20211", 51));
 }
 
 #[test]
