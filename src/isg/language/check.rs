@@ -128,6 +128,10 @@ impl<'a> Checker<'a> {
         }
         let head = head(&line.text)?;
         *block = head.number;
+        if line.begins_comment().is_some() && line.comment_end().is_none() {
+            // All lines behind it are hidden.
+            *next = self.text.program.count().saturating_add(1);
+        }
         if let Some(behind) = hidden(line)? {
             *next = behind;
             return Ok(());

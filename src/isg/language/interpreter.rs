@@ -66,7 +66,7 @@ impl Interpreter {
                 code: FaultCode::Call,
                 program: level.program.clone(),
                 block: None,
-                line: level.line,
+                line: level.line.max(1),
                 column: 1,
                 text,
             };
