@@ -37,6 +37,7 @@ macro_rules! messages {
 messages! {
     DWELL_TWICE = 20013, "", 2, "Channel %1 block %2: dwell time both directly and with an axis";
     HOMING_WITH_GROUP = 20137, "", 2, "Channel %1: homing is not possible while coupling group %2 is active";
+    CONTROL_DEPTH = 20211, "", 2, "Channel %1 block %2: control blocks are nested too deeply";
     GROUP_0_SELF = 20440, "", 1, "Channel %1, coupling group 0: axis %2 is its own master; the pair is skipped";
     GROUP_0_BOTH = 20442, "", 1, "Channel %1, coupling group 0: axis %2 is both master and slave; the pair is skipped";
     LINK_WITH_COMPENSATION = 20457, "", 2, "Channel %1 block %2: a coupling cannot be switched while tool radius compensation is active";
