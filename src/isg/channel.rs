@@ -132,6 +132,8 @@ pub(super) struct Channel {
     pub last_group: u16,
     /// Groups that the next program start switches on again.
     pub restored: Vec<u16>,
+    /// A program end has switched them off (P-CHAN-00105), not a reset (P-CHAN-00104).
+    pub restored_from_end: bool,
     /// A reset waits until the axes stand.
     pub resets: bool,
     /// P-CHAN-00104 and P-CHAN-00105.
@@ -174,6 +176,7 @@ impl Channel {
             groups: Vec::new(),
             last_group: 0,
             restored: Vec::new(),
+            restored_from_end: false,
             resets: false,
             restores_after_reset: false,
             restores_after_end: false,
@@ -249,6 +252,11 @@ impl Channel {
     /// Whether an axis is the slave of an active group.
     pub(super) fn is_slave(&self, axis: AxisNumber) -> bool {
         self.couplings().any(|coupling| coupling.followers().any(|follower| follower == axis))
+    }
+
+    /// Whether an axis is a member of an active group.
+    pub(super) fn is_in_group(&self, axis: AxisNumber) -> bool {
+        self.couplings().any(|coupling| coupling.members().any(|member| member == axis))
     }
 
     /// The axis of a name in NC programs.

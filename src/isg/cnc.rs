@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use super::hli::{HLI, ToCnc, axis_to_cnc};
 use super::lists::{Code, Lists, Message};
-use super::parameters::Clearing;
 use super::pending::of_axis;
 use super::rules::Why;
 use super::state::{Axis, AxisError, State, Units};
@@ -59,7 +58,7 @@ impl State {
         let event = self.power_on;
         for number in self.existing() {
             let axis = &mut self.axes[number];
-            axis.homed = axis.feedback.absolute[0];
+            axis.homed = axis.feedback.absolute[0] && !axis.parameters.homing.ignores_absolute;
             axis.setpoint = Setpoint::at(axis.actual());
             if axis.homed {
                 axis.causes.homed = self.log.note_plain(Place::Axis(number), Why::AbsoluteEncoder, event);
@@ -69,7 +68,7 @@ impl State {
     }
 
     /// A message of the start-up checks.
-    fn raise_at_start(&mut self, message: &Message) {
+    pub(super) fn raise_at_start(&mut self, message: &Message) {
         let number = match message.code {
             Code::Number(number) => AlarmNumber(number),
             Code::Parameter(number) => messages::of_parameter(number),
@@ -79,18 +78,18 @@ impl State {
         let channel = message.channel.and_then(|channel| ChannelNumber::new(u8::try_from(channel).ok()?));
         let place = axis.map(Place::Axis).or_else(|| channel.map(Place::Channel)).unwrap_or(Place::Nck);
         let event = self.log.note_plain(place, Why::StartUpCheck, self.power_on);
-        let first = match place {
-            Place::Axis(axis) => Parameter::Axis(axis),
-            Place::Channel(channel) => Parameter::Channel(channel),
-            Place::Nck | Place::ModeGroup(_) => Parameter::None,
+        // About a channel: channel, entry, axis, as at run time channel, block, axis. About an axis: axis, other axis, entry.
+        let entry = Parameter::Text(short_text(&place_of(message)));
+        let [axis, second] = [axis, other].map(|axis| axis.map_or(Parameter::None, Parameter::Axis));
+        let parameters = match channel {
+            Some(channel) => [Parameter::Channel(channel), entry, axis, second],
+            None => [axis, second, entry, Parameter::None],
         };
-        let second = other.map_or_else(|| Parameter::Text(short_text(&message.place.to_string())), Parameter::Axis);
-        let parameters = [first, second, Parameter::None, Parameter::None];
         self.pending.raise_as(RaisedAlarm { number, place, parameters }, other, message.is_warning(), event);
     }
 
-    /// Reads the control units of an axis.
-    fn read_axis(&mut self, number: AxisNumber, to_cnc: &super::hli::AxisToCnc) {
+    /// Reads the control units of an axis. True if `gantry_on` rises.
+    fn read_axis(&mut self, number: AxisNumber, to_cnc: &super::hli::AxisToCnc) -> bool {
         let axis = &self.axes[number];
         let before = axis.units;
         let unit = |enable: bool, command: bool, request: bool| if enable { command } else { request };
@@ -119,22 +118,7 @@ impl State {
         if let Some(event) = note(self, changed, gantry, to_cnc.gantry_on_command(), to_cnc.gantry_on_enable()) {
             self.axes[number].causes.gantry_on = event;
         }
-        let rises = now.gantry_on && !before.gantry_on;
-        if now.gantry_on {
-            let logical = self.axes[number].parameters.number;
-            let cause = self.axes[number].causes.gantry_on;
-            self.clear_differences(
-                |axis| {
-                    axis.parameters.number == logical
-                        && match axis.parameters.clearing {
-                            Clearing::ResetOrUnit | Clearing::Unit => true,
-                            Clearing::Edge => rises,
-                            Clearing::Never => false,
-                        }
-                },
-                cause,
-            );
-        }
+        now.gantry_on && !before.gantry_on
     }
 
     /// Faults and readiness of the drives (HG-13, HG-22, HG-23).
@@ -145,7 +129,8 @@ impl State {
                 axis.was_ready = true;
                 axis.causes.ready = self.log.note_plain(Place::Axis(number), Why::DriveStarted, self.power_on);
             }
-            let is_new = axis.feedback.drive_fault && axis.error.is_none();
+            let is_new = axis.feedback.drive_fault && !axis.fault_raised;
+            axis.fault_raised = axis.feedback.drive_fault;
             if is_new {
                 // An intelligent drive leaves its reaction to the CNC if the list says so; it brakes by itself otherwise.
                 axis.fault_stop = axis.parameters.stops_controlled && self.intelligent.contains(number);
@@ -165,10 +150,12 @@ impl State {
 
     /// The setpoints of the cycle.
     fn decide(&mut self, to_cnc: &ToCnc) {
+        let mut rising = AxisSet::NONE;
         for number in self.existing() {
             let bits = to_cnc.axes[number];
-            self.read_axis(number, &bits);
+            rising.set(number, self.read_axis(number, &bits));
         }
+        self.clear_by_unit(rising);
         self.watch_drives();
         for index in 0..self.channels.len() {
             let bits = to_cnc.channels[self.channels[index].number];
@@ -184,9 +171,14 @@ impl State {
     /// An update of a list at run time: what waits for a restart is kept (HG-02).
     fn update(&mut self, target: &str, value: &Value) -> EventId {
         let event = self.log.note_plain(Place::Nck, Why::ListUpdated, EventId::NONE);
+        let before = self.lists.update().messages;
         if self.lists.set(target, value, &FilePlace::file("scenario")).is_ok() {
             let started = self.lists.update();
             self.adopt(&started, false);
+            self.adopt_offsets();
+            for message in started.messages.iter().filter(|message| !before.contains(message)) {
+                self.raise_at_start(message);
+            }
         }
         event
     }
@@ -383,6 +375,12 @@ impl Control for Cnc {
     fn as_any(&self) -> &dyn Any {
         self
     }
+}
+
+/// The entry of a message: name of the file and line. A long path would leave no room for them.
+fn place_of(message: &Message) -> String {
+    let place = message.place.to_string();
+    place.rsplit(['/', '\\']).next().unwrap_or_default().to_owned()
 }
 
 fn foreign(what: &str, cure: &str) -> Problem {

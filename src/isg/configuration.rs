@@ -361,6 +361,8 @@ fn parameters(axis: &lists::Axis, master: Option<AxisNumber>) -> AxisParameters 
         velocity: velocity(axis.vb_max),
         homing: Homing {
             disabled: axis.homing == lists::Homing::Disabled,
+            by_the_cnc: axis.is_homing_given && axis.homing == lists::Homing::CncControlled,
+            ignores_absolute: axis.homing == lists::Homing::IgnoreAbsolutePosition,
             direction: if axis.is_reference_direction_positive { 1.0 } else { -1.0 },
             fast: velocity(axis.vb_ref_fast),
             slow: velocity(axis.vb_ref_slow),

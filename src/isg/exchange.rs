@@ -31,12 +31,19 @@ impl State {
         };
         for combination in &combinations {
             let one = &self.combinations[*combination];
-            if !one.is_config {
+            if !self.is_config(*combination) {
                 return Err(Refused::axis(messages::NOT_CONFIG, one.coupling.leader()));
             }
-            let moving = one.coupling.members().find(|axis| !self.axes[*axis].setpoint.is_at_rest());
-            if let Some(axis) = moving {
+            if let Some(axis) = one.coupling.members().find(|axis| self.is_moving(*axis)) {
                 return Err(Refused::axis(messages::NOT_AT_STANDSTILL, axis));
+            }
+            let in_group = |axis: &AxisNumber| self.channels.iter().any(|channel| channel.is_in_group(*axis));
+            if on && let Some(axis) = one.coupling.followers().find(in_group) {
+                return Err(Refused(
+                    messages::NC_VALUE,
+                    Parameter::Text(short_text("the axis is coupled")),
+                    Parameter::Axis(axis),
+                ));
             }
         }
         for combination in combinations {
@@ -45,6 +52,11 @@ impl State {
             }
         }
         Ok(())
+    }
+
+    /// Whether an axis moves, or has a movement that is held.
+    fn is_moving(&self, axis: AxisNumber) -> bool {
+        !self.axes[axis].setpoint.is_at_rest() || self.channels.iter().any(|channel| channel.moves(axis))
     }
 
     fn switch_combination(&mut self, combination: usize, on: bool, cause: EventId) {
@@ -139,8 +151,7 @@ impl State {
                 .filter(|axis| channel.index_of(*axis).is_some())
                 .collect(),
         };
-        let is_coupled = |axis: &AxisNumber| channel.couplings().any(|one| one.members().any(|member| member == *axis));
-        if let Some(axis) = put.iter().copied().find(is_coupled) {
+        if let Some(axis) = put.iter().copied().find(|axis| channel.is_in_group(*axis)) {
             return Err(Refused(
                 messages::NC_VALUE,
                 Parameter::Text(short_text("the axis is coupled")),

@@ -13,7 +13,7 @@ use crate::motion::coupling::{
     BeforeReference, Coupling, CouplingEvent, Events, Follower, GroupStop, Moves, OffsetSource, Policy, Progress,
     Reaction, Realign, Release, Target, What,
 };
-use crate::units::{AxisNumber, PerAxis, Position};
+use crate::units::{AxisNumber, AxisSet, PerAxis, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
 
 /// The reactions of both kinds of gantry: stage 1 stops until a reset, stage 2 until a restart (HG-07, SG-04).
@@ -29,8 +29,6 @@ pub(super) const POLICY: Policy = Policy {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Combination {
     pub coupling: Coupling,
-    /// All slaves have CONFIG: a program may open it.
-    pub is_config: bool,
     /// Its axes home at once, each for itself.
     pub homes_at_once: bool,
     /// What it is doing, for the chart.
@@ -57,8 +55,7 @@ pub(super) fn combinations(axes: &PerAxis<Axis>, cause: EventId) -> Vec<Combinat
             });
             let mut coupling = Coupling::new(master, POLICY, followers)?;
             coupling.start_up(&AxesView(axes));
-            let is_config = slaves_of(master).all(|(_, slave)| slave.parameters.clearing == Clearing::Never);
-            Some(Combination { coupling, is_config, homes_at_once: false, phase: GantryPhase::default(), cause })
+            Some(Combination { coupling, homes_at_once: false, phase: GantryPhase::default(), cause })
         })
         .collect()
 }
@@ -83,6 +80,12 @@ impl State {
             .any(|one| !one.coupling.is_open() && one.coupling.followers().any(|follower| follower == axis))
     }
 
+    /// Whether all slaves of a combination have CONFIG: a program may open it (O-14).
+    pub(super) fn is_config(&self, combination: usize) -> bool {
+        let mut slaves = self.combinations[combination].coupling.followers();
+        slaves.all(|slave| self.axes[slave].parameters.clearing == Clearing::Never)
+    }
+
     /// The smallest of a parameter over an axis and the slaves that follow it.
     pub(super) fn smallest(&self, axis: AxisNumber, of: impl Fn(&AxisParameters) -> f64) -> f64 {
         let hard = self.combinations.iter().map(|one| &one.coupling);
@@ -90,6 +93,43 @@ impl State {
         let led = hard.chain(soft).filter(|coupling| coupling.leader() == axis && !coupling.is_open());
         let slaves = led.flat_map(Coupling::followers);
         slaves.map(|slave| of(&self.axes[slave].parameters)).fold(of(&self.axes[axis].parameters), f64::min)
+    }
+
+    /// The offsets of the lists, after an update of a list at run time.
+    pub(super) fn adopt_offsets(&mut self) {
+        let Self { combinations, axes, .. } = self;
+        for one in combinations {
+            one.coupling.set_offsets(|slave| axes[slave].parameters.offset, &AxesView(axes));
+        }
+    }
+
+    /// Starts to clear the differences that `gantry_on` clears, by the mode of each slave (HG-12, HG-21). On a master it counts for all its
+    /// slaves (O-16).
+    pub(super) fn clear_by_unit(&mut self, rising: AxisSet) {
+        let Self { combinations, axes, .. } = self;
+        for one in combinations.iter().filter(|one| !one.coupling.is_open()) {
+            let leader = one.coupling.leader();
+            for slave in one.coupling.followers() {
+                let by_master = axes[leader].units.gantry_on;
+                let is_on = axes[slave].units.gantry_on || by_master;
+                let rises = rising.contains(slave) || rising.contains(leader);
+                let apart = one.coupling.setpoint_misalignment(slave, &AxesView(axes));
+                let unit = match axes[slave].parameters.clearing {
+                    Clearing::ResetOrUnit | Clearing::Unit => is_on,
+                    // An edge without a difference is over; one with a difference waits until the axes stand.
+                    Clearing::Edge if rises => apart.is_some_and(|apart| apart != Position::ZERO),
+                    Clearing::Edge => is_on && axes[slave].clears,
+                    Clearing::Never => false,
+                };
+                axes[slave].clears = unit;
+            }
+        }
+        let wanted: Vec<AxisNumber> = axes.iter().filter(|(_, axis)| axis.clears).map(|(axis, _)| axis).collect();
+        for slave in wanted {
+            let leader = self.axes[slave].parameters.master.unwrap_or(slave);
+            let by = if self.axes[slave].units.gantry_on { slave } else { leader };
+            self.clear_differences(|axis| axis.clears, self.axes[by].causes.gantry_on);
+        }
     }
 
     /// Starts to clear the differences that a reset, or `gantry_on`, clears (HG-12).
@@ -111,7 +151,13 @@ impl State {
             let Some(first) = begins.first().copied() else { continue };
             let input = Input::Length(Quantity::SynchronismDifference, first, apart(first));
             one.cause = log.note_one(Place::Axis(first), Why::ClearingBegins, input, cause);
-            one.coupling.begin_realignment(Realign { moves: Moves::Followers, target: Target::LeaderSetpoint }, &view);
+            let moves = Moves::Only(begins.iter().copied().collect());
+            one.coupling.begin_realignment(Realign { moves, target: Target::LeaderSetpoint }, &view);
+            for slave in begins {
+                if axes[slave].parameters.clearing == Clearing::Edge {
+                    axes[slave].clears = false;
+                }
+            }
         }
     }
 
@@ -212,10 +258,11 @@ impl State {
 
     /// An axis with all that are coupled with it.
     pub(super) fn coupled_with(&self, axis: AxisNumber) -> Vec<AxisNumber> {
-        let hard = self.combinations.iter().map(|one| &one.coupling);
-        let soft = self.channels.iter().flat_map(|channel| channel.couplings());
+        let is_together = |one: &&Combination| !one.coupling.is_open() || one.homes_at_once;
+        let hard = self.combinations.iter().filter(is_together).map(|one| &one.coupling);
+        let soft = self.channels.iter().flat_map(|channel| channel.couplings()).filter(|coupling| !coupling.is_open());
         let mut members = vec![axis];
-        let couplings: Vec<_> = hard.chain(soft).filter(|coupling| !coupling.is_open()).collect();
+        let couplings: Vec<_> = hard.chain(soft).collect();
         let mut index = 0;
         while let Some(member) = members.get(index).copied() {
             for coupling in &couplings {

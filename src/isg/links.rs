@@ -7,7 +7,7 @@ use super::charts::LinkPhase;
 use super::gantry::POLICY;
 use super::language::{AxisReference, Form, Link, LinkOff, Pair};
 use super::messages;
-use super::parameters::{Clearing, GANTRY_BITS};
+use super::parameters::{Clearing, GANTRY_BITS, length, velocity};
 use super::pending::of_axis;
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
@@ -96,7 +96,13 @@ impl State {
         }
         let definition = channel.definitions.get(&number).filter(|pairs| !pairs.is_empty());
         let definition = definition.ok_or_else(|| Refused::group(messages::LINK_UNASSIGNED, group))?;
-        let pairs = self.checked_pairs(channel, definition, group)?;
+        let mut pairs = self.checked_pairs(channel, definition, group)?;
+        let by_list: Vec<bool> =
+            definition.iter().map(|pair| matches!(pair.form, Form::Gantry { limits: None })).collect();
+        for ((_, follower), _) in pairs.iter_mut().zip(by_list).filter(|(_, by_list)| *by_list) {
+            follower.limits = self.limits_of_list(follower.axis);
+        }
+        let channel = &self.channels[index];
         let mut couplings: Vec<Coupling> = Vec::new();
         let mut masters: Vec<AxisNumber> = pairs.iter().map(|(master, _)| *master).collect();
         masters.sort_unstable();
@@ -118,6 +124,17 @@ impl State {
         channel.groups.push(group);
         channel.last_group = number;
         Ok(())
+    }
+
+    /// The limits of the list of a slave that a pair without printed limits monitors. Values out of their ranges are messages, as they are
+    /// at the start on a slave by list (HG-06, O-34).
+    fn limits_of_list(&mut self, slave: AxisNumber) -> Option<TwoStage> {
+        let (limits, messages) = self.lists.gantry_pair(self.axes[slave].parameters.number)?;
+        for message in &messages {
+            self.raise_at_start(message);
+        }
+        self.axes[slave].parameters.correction_velocity = velocity(limits.correction_velocity);
+        Some(TwoStage::new(Some(length(limits.first.into())), length(limits.second.into())))
     }
 
     /// The pairs with their axes, or why the group cannot become active. Nothing of it does then (SG-22).
@@ -168,9 +185,8 @@ impl State {
                 Form::Gantry { limits: Some([first, second]) } => {
                     Some(TwoStage::new(Some(Position::from_user(first)), Position::from_user(second)))
                 }
-                Form::Gantry { limits: None } => Some(
-                    self.axes[slave].parameters.limits.ok_or_else(|| of_group(messages::of_parameter(72), slave))?,
-                ),
+                // The list may leave them out; `check_gantry_pairs` then gives the nearest allowed ones.
+                Form::Gantry { limits: None } => self.axes[slave].parameters.limits,
                 Form::Bare | Form::Standard | Form::Factor { .. } => None,
             };
             let factor = if pair.form.factor() < 0 { Sign::Minus } else { Sign::Plus };
@@ -237,6 +253,7 @@ impl State {
         let channel = &mut channels[index];
         if channel.restores_after_reset && !channel.groups.is_empty() {
             channel.restored = channel.groups.iter().map(|group| group.number).collect();
+            channel.restored_from_end = false;
         }
         for group in &mut channel.groups {
             for coupling in group.couplings.iter_mut().filter(|coupling| coupling.is_closed()) {
@@ -246,6 +263,7 @@ impl State {
                     let apart = coupling.setpoint_misalignment(slave, &view);
                     axis.error != Some(AxisError::Locked)
                         && axis.is_powered()
+                        && axis.parameters.correction_velocity > 0.0
                         && axis.parameters.clearing == Clearing::ResetOrUnit
                         && coupling.is_monitored(slave)
                         && apart.is_some_and(|apart| apart != Position::ZERO)
@@ -290,7 +308,9 @@ impl State {
             let restored = if is_complete {
                 self.switch_on(index, Some(number.into()), Why::GroupRestored, cause)
             } else {
-                Err(Refused::group(messages::LINK_NOT_RESTORED, number.into()))
+                let from_end = channel.restored_from_end;
+                let message = if from_end { messages::LINK_NOT_KEPT } else { messages::LINK_NOT_RESTORED };
+                Err(Refused(message, Parameter::Number(number.into()), Parameter::None))
             };
             if let Err(Refused(number, third, fourth)) = restored {
                 let parameters = [Parameter::Channel(self.channels[index].number), third, fourth, Parameter::None];

@@ -38,8 +38,10 @@ messages! {
     DWELL_TWICE = 20013, "", 2, "Channel %1 block %2: dwell time both directly and with an axis";
     HOMING_WITH_GROUP = 20137, "", 2, "Channel %1: homing is not possible while coupling group %2 is active";
     CONTROL_DEPTH = 20211, "", 2, "Channel %1 block %2: control blocks are nested too deeply";
-    GROUP_0_SELF = 20440, "", 1, "Channel %1, coupling group 0: axis %2 is its own master; the pair is skipped";
-    GROUP_0_BOTH = 20442, "", 1, "Channel %1, coupling group 0: axis %2 is both master and slave; the pair is skipped";
+    GROUP_0_NUMBER = 20438, "", 1, "Channel %1, %2: the number 0 is no axis; the pair of coupling group 0 is skipped";
+    GROUP_0_SELF = 20440, "", 1, "Channel %1, %2: axis %3 is its own master; the pair of coupling group 0 is skipped";
+    GROUP_0_TWICE = 20441, "", 1, "Channel %1, %2: axis %3 is a slave twice; the pair of coupling group 0 is skipped";
+    GROUP_0_BOTH = 20442, "", 1, "Channel %1, %2: axis %3 is both master and slave; the pair of coupling group 0 is skipped";
     LINK_WITH_COMPENSATION = 20457, "", 2, "Channel %1 block %2: a coupling cannot be switched while tool radius compensation is active";
     GROUP_OUT_OF_RANGE = 20461, "", 2, "Channel %1 block %2: coupling group %3 is out of range";
     SLAVE_IS_MAIN_AXIS = 20467, "", 2, "Channel %1 block %2: slave %3 is a main axis (channel index 0 to 2)";
@@ -52,7 +54,7 @@ messages! {
     MASTER_AND_SLAVE = 20477, "", 2, "Channel %1 block %2: axis %3 is both master and slave, group %4";
     DWELL_AXES = 20685, "", 1, "Channel %1 block %2: dwell time with additional axes";
     JUMP_TARGET = 20839, "", 2, "Channel %1 block %2: character behind $GOTO not permitted";
-    SLAVE_IN_CHANNEL = 21020, "", 3, "Gantry slave %1 cannot be an axis of a channel";
+    SLAVE_IN_CHANNEL = 21020, "", 3, "Channel %1, %2: %3 is a gantry slave and cannot be an axis of a channel";
     NUMERATOR_0 = 21077, "", 2, "Channel %1 block %2: the numerator of the coupling factor is 0";
     DENOMINATOR_MISSING = 21110, "", 2, "Channel %1 block %2: the denominator of the coupling factor is missing";
     FACTOR_NOT_ONE = 21111, "", 1, "Channel %1 block %2: the coupling factor of axis %3 is neither 1 nor -1; it is set to 1";
@@ -62,18 +64,22 @@ messages! {
     SLAVE_IS_MASTER = 21284, "", 2, "Channel %1 block %2: slave %3 is a master of another active group, group %4";
     MASTER_IS_SLAVE = 21285, "", 2, "Channel %1 block %2: master %3 is a slave of another active group, group %4";
     SLAVE_IS_MAIN_SPINDLE = 21347, "", 2, "Channel %1: the slave of a spindle pair is the main spindle";
+    COMPENSATED_WHILE_COUPLED = 21403, "", 2, "Channel %1: the compensation of axis %2 was changed while it is coupled";
+    MASTER_INDEPENDENT = 21481, "", 2, "Channel %1: axis %2, the master of an active coupling group, was programmed as independent axis";
     BEHIND_CALL = 21542, "", 2, "Channel %1 block %2: NC commands behind a subroutine call";
-    NO_MASTER_BIT = 70124, "", 1, "Slave %1 names axis %2 as its master, which is not configured as one";
-    MODULO_DIFFERS = 70202, "", 1, "Modulo settings of slave %1 and master %2 differ; those of the master are used";
+    NO_MASTER_BIT = 70124, "", 1, "Slave %1 names axis %2 as its master, which is not configured as one (%3)";
+    MODULO_DIFFERS = 70202, "", 1, "Modulo settings of slave %1 and master %2 differ; those of the master are used (%3)";
     HOMING_TRAVEL = 70229, "", 2, "Slave %1 exceeded its homing travel (P-AXIS-00284)";
     LINK_OF_MASTER_CONFLICTS = 70454, "", 7, "An HLI coupling was commanded on slave %1, which takes that of its master";
     NOT_AT_STANDSTILL = 70569, "", 7, "Channel %1 block %2: a gantry combination can be opened and closed only at standstill, axis %3";
-    MODULO_RANGE = 110_052, "", 1, "Axis %1: modulo range invalid, set to 0 to 360 degrees";
-    AXIS_MODE = 110_053, "", 1, "Axis %1: axis mode invalid, corrected";
-    NUMBER_0 = 110_076, "", 3, "The logical number of an axis list is 0";
-    MASTER_WITH_MASTER = 110_342, "", 3, "Gantry master %1 has an entry for its own master; it is set to 0";
-    AXIS_MODE_CORRECTED = 110_353, "", 1, "Axis %1: axis mode invalid, corrected";
-    GANTRY_ON_MODE = 110_606, "", 1, "Axis %1: P-AXIS-00704 contradicts P-AXIS-00261; set to EDGE_TRIGGERED";
+    RETRACT_DISTANCE = 70651, "", 1, "Axis %1: the retract distance of homing to a fixed stop is not above P-AXIS-00072";
+    MODULO_RANGE = 110_052, "", 1, "Axis %1: modulo range invalid, set to 0 to 360 degrees (%3)";
+    AXIS_MODE = 110_053, "", 1, "Axis %1: axis mode invalid, corrected (%3)";
+    NUMBER_0 = 110_076, "", 3, "The logical number of an axis list is 0 (%3)";
+    MODULO_TOO_LARGE = 110_308, "", 1, "Axis %1: modulo range too large, set to 0 to 360 degrees (%3)";
+    MASTER_WITH_MASTER = 110_342, "", 3, "Gantry master %1 has an entry for its own master; it is set to 0 (%3)";
+    AXIS_MODE_CORRECTED = 110_353, "", 1, "Axis %1: axis mode invalid, corrected (%3)";
+    GANTRY_ON_MODE = 110_606, "", 1, "Axis %1: P-AXIS-00704 contradicts P-AXIS-00261; set to EDGE_TRIGGERED (%3)";
     STAGE_1 = AlarmNumber::OWN + 1, "gantry-stage-1", 4, "Axis %1: gantry difference above the resettable limit";
     STAGE_2 = AlarmNumber::OWN + 2, "gantry-stage-2", 4, "Axis %1: gantry difference above the limit that no reset clears";
     NOT_CONFIG = AlarmNumber::OWN + 3, "gantry-not-config", 2, "Channel %1 block %2: #GANTRY needs CONFIG (P-AXIS-00704) on every slave of %3";
@@ -90,6 +96,7 @@ messages! {
     DRIVE_FAULT = AlarmNumber::OWN + 14, "drive-fault", 4, "Axis %1: the drive reports a fault";
     DRIVE_NOT_READY = AlarmNumber::OWN + 15, "drive-not-ready", 4, "Axis %1 is to move without its releases";
     LINK_NOT_RESTORED = AlarmNumber::OWN + 16, "P-CHAN-00104", 2, "Channel %1: coupling group %2 has axes outside the configuration of the channel and is not restored";
+    LINK_NOT_KEPT = AlarmNumber::OWN + 17, "P-CHAN-00105", 2, "Channel %1: coupling group %2 has axes outside the configuration of the channel and is not switched on again";
 }
 
 /// The row of a message.

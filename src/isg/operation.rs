@@ -238,9 +238,7 @@ impl State {
         let moving: Vec<AxisNumber> = channel.path_axes.iter().copied().filter(|axis| channel.moves(*axis)).collect();
         let members: Vec<AxisNumber> = moving.iter().flat_map(|axis| self.coupled_with(*axis)).collect();
         if let Some(axis) = members.iter().copied().find(|axis| self.lacks_releases(*axis)) {
-            let event = self.log.note_plain(Place::Axis(axis), Why::DriveNotReady, self.axes[axis].causes.ready);
-            self.pending.raise(of_axis(messages::DRIVE_NOT_READY, axis), None, event);
-            self.axis_error(axis, AxisError::Resettable, event);
+            self.drive_not_ready(axis);
             return;
         }
         let is_free = members.iter().all(|axis| self.axes[*axis].units.feed_enable && self.axes[*axis].is_powered());
@@ -273,8 +271,15 @@ impl State {
         }
     }
 
+    /// An axis is to move without its releases.
+    pub(super) fn drive_not_ready(&mut self, axis: AxisNumber) {
+        let event = self.log.note_plain(Place::Axis(axis), Why::DriveNotReady, self.axes[axis].causes.ready);
+        self.pending.raise(of_axis(messages::DRIVE_NOT_READY, axis), None, event);
+        self.axis_error(axis, AxisError::Resettable, event);
+    }
+
     /// Whether an axis is to move without its releases. A drive that starts up is waited for.
-    fn lacks_releases(&self, axis: AxisNumber) -> bool {
+    pub(super) fn lacks_releases(&self, axis: AxisNumber) -> bool {
         let axis = &self.axes[axis];
         !axis.units.drive_enable || !axis.feedback.drive_ready && axis.was_ready
     }

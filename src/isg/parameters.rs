@@ -47,6 +47,10 @@ pub(super) enum Clearing {
 pub(super) struct Homing {
     /// The axis is not homed by a homing run (P-AXIS-00299 DISABLED).
     pub disabled: bool,
+    /// The list says CNC_CONTROLLED: also a drive that could home by itself does not (HG-23).
+    pub by_the_cnc: bool,
+    /// The absolute position of the encoder is no reference (P-AXIS-00299 IGNORE_ABS_POS).
+    pub ignores_absolute: bool,
     /// +1 or −1: where the search begins (P-AXIS-00158).
     pub direction: f64,
     /// To the cam (P-AXIS-00219).

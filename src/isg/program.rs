@@ -130,13 +130,14 @@ impl State {
         let left = match wait {
             Wait::Nothing | Wait::Dwell(0) => Wait::Nothing,
             Wait::Dwell(cycles) => Wait::Dwell(cycles - 1),
-            Wait::Homing(job) if holds => Wait::Homing(job),
+            Wait::Homing(job) if holds || self.misses_feed_enable(&job) => Wait::Homing(job),
             Wait::Homing(mut job) => {
-                if self.home(&mut job) {
-                    Wait::Nothing
-                } else {
-                    Wait::Homing(job)
+                if let Some(axis) = self.homing_now(&job).into_iter().find(|axis| self.lacks_releases(*axis)) {
+                    self.drive_not_ready(axis);
+                    self.channels[index].wait = Wait::Homing(job);
+                    return;
                 }
+                if self.home(&mut job) { Wait::Nothing } else { Wait::Homing(job) }
             }
         };
         // An error of an axis has ended the program meanwhile.
@@ -147,6 +148,10 @@ impl State {
             }
             left => self.channels[index].wait = left,
         }
+    }
+
+    fn misses_feed_enable(&self, job: &Job) -> bool {
+        self.homing_now(job).into_iter().any(|axis| !self.axes[axis].units.feed_enable)
     }
 
     /// Whether everything before has been executed.
@@ -170,6 +175,7 @@ impl State {
         let numbers: Vec<u16> = channel.groups.iter().map(|group| group.number).collect();
         if channel.restores_after_end {
             channel.restored.clone_from(&numbers);
+            channel.restored_from_end = true;
         }
         self.end_groups(index, &numbers, Why::GroupEnds, event);
     }

@@ -97,7 +97,8 @@ impl State {
 
     /// Whether the channel of an axis holds a movement of it.
     fn is_held(&self, number: AxisNumber) -> bool {
-        self.channels.iter().any(|channel| channel.is_held() && channel.moves(number))
+        let members = self.coupled_with(number);
+        self.channels.iter().any(|channel| channel.is_held() && members.iter().any(|member| channel.moves(*member)))
     }
 
     fn axis_values(&self, number: AxisNumber) -> AxisValues {

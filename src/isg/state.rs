@@ -81,6 +81,10 @@ pub(super) struct Axis {
     pub fault_stop: bool,
     /// Somebody moves the slide by hand: the setpoint follows once.
     pub tracks_once: bool,
+    /// The fault that the drive reports has been raised.
+    pub fault_raised: bool,
+    /// `gantry_on` wants the difference of this slave cleared.
+    pub clears: bool,
     /// The number of cycles in which the slide has not moved.
     pub still: u32,
     pub causes: AxisCauses,

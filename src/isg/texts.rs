@@ -24,7 +24,14 @@ fn alarm_row(row: &'static messages::Row) -> AlarmRow {
         number: row.number,
         name: messages::name(row.number),
         text: row.text,
-        raised: !matches!(row.number, messages::LINK_OF_MASTER_CONFLICTS | messages::SLAVE_IS_MAIN_SPINDLE),
+        raised: !matches!(
+            row.number,
+            messages::COMPENSATED_WHILE_COUPLED
+                | messages::LINK_OF_MASTER_CONFLICTS
+                | messages::MASTER_INDEPENDENT
+                | messages::RETRACT_DISTANCE
+                | messages::SLAVE_IS_MAIN_SPINDLE
+        ),
         cancelled_by: if locked { "restart" } else { "NC reset" }.to_owned(),
         reaction: match row.class {
             1 => "none: a warning".to_owned(),
@@ -41,7 +48,12 @@ fn parameter_row(parameter: &lists::Parameter) -> AlarmRow {
     AlarmRow {
         number: messages::of_parameter(parameter.number()),
         name: parameter.id(),
-        text: "%1: a parameter is out of its range, or was taken from the master: %2",
+        text: match parameter.scope {
+            lists::Scope::Axis => {
+                "Axis %1 %2: the value is out of its range, or not that of the gantry master; corrected (%3)"
+            }
+            lists::Scope::Channel => "Channel %1, %2: the value is out of its range; corrected",
+        },
         raised: true,
         cancelled_by: "NC reset".to_owned(),
         reaction: "none: the nearest allowed value, or that of the master, is used".to_owned(),

@@ -61,6 +61,11 @@ impl State {
         job.running.is_empty() && job.waiting.is_empty()
     }
 
+    /// The axes that a homing moves now.
+    pub(super) fn homing_now(&self, job: &Job) -> Vec<AxisNumber> {
+        job.running.iter().flat_map(|chain| &chain.members).flat_map(|axis| self.coupled_with(*axis)).collect()
+    }
+
     /// Ends a homing without a reference.
     pub(super) fn end_homing(&mut self, job: &Job, cause: EventId) {
         for member in job.running.iter().flat_map(|chain| &chain.members) {
@@ -86,7 +91,15 @@ impl State {
         let members: Vec<AxisNumber> = coupling.members().filter(runs).collect();
         // HG-10, HG-23: only drives that home by themselves begin at once.
         let at_once = coupling.followers().any(|slave| self.axes[slave].parameters.homes_at_once)
-            && members.iter().all(|member| self.intelligent.contains(*member));
+            && members
+                .iter()
+                .all(|member| self.intelligent.contains(*member) && !self.axes[*member].parameters.homing.by_the_cnc);
+        for member in &members {
+            // HG-29: nothing is absolute until all have been homed.
+            if !self.axes[*member].parameters.homing.disabled {
+                self.axes[*member].homed = false;
+            }
+        }
         if at_once {
             self.combinations[index].homes_at_once = true;
             let view = AxesView(&self.axes);
@@ -144,8 +157,7 @@ impl State {
         if homing.disabled {
             return true;
         }
-        let is_at_once = why == Why::HomingAtOnce;
-        if is_at_once && axis.run.is_none() && axis.homed && axis.causes.homed > cause {
+        if why == Why::HomingAtOnce && axis.run.is_none() && axis.homed {
             return true;
         }
         let mut run = match axis.run {

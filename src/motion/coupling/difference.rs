@@ -195,6 +195,21 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         }
     }
 
+    /// Replaces configured offsets. Where follower and leader are referenced, the new one acts at once.
+    pub fn set_offsets(&mut self, offset: impl Fn(AxisNumber) -> Position, axes: &impl Axes) {
+        for coupled in &mut self.followers {
+            let new = offset(coupled.follower.axis);
+            if let OffsetSource::Configured(old) = coupled.follower.offset
+                && old != new
+            {
+                coupled.follower.offset = OffsetSource::Configured(new);
+                if coupled.is_referenced(self.leader, axes) {
+                    coupled.base = new;
+                }
+            }
+        }
+    }
+
     /// Compares the differences of all followers with their limits, once per cycle after the encoders. Adds one event to `events` for each
     /// limit that was crossed since the last call. While the coupling is open, no limit counts as exceeded.
     pub fn compare(&mut self, axes: &impl Axes, events: &mut Events) {

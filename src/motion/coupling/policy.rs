@@ -9,7 +9,7 @@ use std::ops::Mul;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::Movement;
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, AxisSet, Position};
 
 /// The coupling factor: +1, or −1 for a mirror coupling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -165,6 +165,19 @@ pub enum Moves {
     All,
     /// The followers; the leader stays.
     Followers,
+    /// These; all others stay.
+    Only(AxisSet),
+}
+
+impl Moves {
+    /// Whether a member of a coupling with this leader moves.
+    pub(super) fn moves(self, axis: AxisNumber, leader: AxisNumber) -> bool {
+        match self {
+            Self::All => true,
+            Self::Followers => axis != leader,
+            Self::Only(members) => members.contains(axis),
+        }
+    }
 }
 
 /// The final position of the leader. The final position of each follower results from it.

@@ -7,7 +7,7 @@
 use arrayvec::ArrayVec;
 
 use super::difference::{Events, What};
-use super::policy::{Moves, Realign, Target};
+use super::policy::{Realign, Target};
 use super::state::{Axes, Connection, Coupled, Coupling, MEMBERS, Realignment};
 use crate::motion::{Limits, Motion};
 use crate::units::{AxisNumber, Position};
@@ -57,7 +57,7 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         let Connection::Realigning(mut realignment) = self.connection else { return None };
         let mut commands = ArrayVec::new();
         let (mut arrived, mut late) = (true, None);
-        for axis in self.members().filter(|&axis| realignment.moves == Moves::All || axis != self.leader) {
+        for axis in self.members().filter(|&axis| realignment.moves.moves(axis, self.leader)) {
             let target = self.member_target(axis, realignment.target, axes);
             let setpoint = axes.setpoint(axis);
             let rests = setpoint.is_at_rest() && setpoint.position == target;
