@@ -85,6 +85,15 @@ pub(super) struct Modal {
     pub feed: f64,
     /// G41 or G42.
     pub compensation: bool,
+    /// G161: I, J and K are positions.
+    pub centre_absolute: bool,
+}
+
+impl Default for Modal {
+    /// The initial state: G00, G17, G90, G162, no compensation.
+    fn default() -> Self {
+        Self { motion: 0, absolute: true, plane: 17, feed: 0.0, compensation: false, centre_absolute: false }
+    }
 }
 
 /// A channel.
@@ -118,6 +127,8 @@ pub(super) struct Channel {
     pub end: PerPathAxis,
     /// Single block: a block has been fetched since the last stop.
     pub fetched_one: bool,
+    /// M00: the program is held when everything before has been executed.
+    pub halts: bool,
     /// The block that runs without the path.
     pub shown: u32,
     pub modal: Modal,
@@ -134,6 +145,8 @@ pub(super) struct Channel {
     pub restored: Vec<u16>,
     /// A program end has switched them off (P-CHAN-00105), not a reset (P-CHAN-00104).
     pub restored_from_end: bool,
+    /// A program has been started, and those groups are not on yet.
+    pub restores: bool,
     /// A reset waits until the axes stand.
     pub resets: bool,
     /// P-CHAN-00104 and P-CHAN-00105.
@@ -167,8 +180,9 @@ impl Channel {
             next_block: 0,
             end: PerPathAxis::default(),
             fetched_one: false,
+            halts: false,
             shown: 0,
-            modal: Modal { motion: 0, absolute: true, plane: 17, feed: 0.0, compensation: false },
+            modal: Modal::default(),
             first_feed: 0.0,
             feed_unit: 1.0,
             manual: Vec::new(),
@@ -177,6 +191,7 @@ impl Channel {
             last_group: 0,
             restored: Vec::new(),
             restored_from_end: false,
+            restores: false,
             resets: false,
             restores_after_reset: false,
             restores_after_end: false,

@@ -219,9 +219,8 @@ impl Control for Cnc {
         match command {
             ControlCommand::Store { target, value } => state.update(target, value),
             ControlCommand::SelectProgram { channel, path } => {
-                if let Some(channel) = state.channels.iter_mut().find(|one| one.number == *channel)
-                    && !channel.is_active()
-                {
+                // A program that runs is not changed by it: the next start takes the new one.
+                if let Some(channel) = state.channels.iter_mut().find(|one| one.number == *channel) {
                     channel.selected = Some(path.clone());
                 }
                 EventId::NONE

@@ -86,13 +86,10 @@ impl State {
         slaves.all(|slave| self.axes[slave].parameters.clearing == Clearing::Never)
     }
 
-    /// The smallest of a parameter over an axis and the slaves that follow it.
+    /// The smallest of a parameter over an axis and all that follow it, directly or through others.
     pub(super) fn smallest(&self, axis: AxisNumber, of: impl Fn(&AxisParameters) -> f64) -> f64 {
-        let hard = self.combinations.iter().map(|one| &one.coupling);
-        let soft = self.channels.iter().flat_map(|channel| channel.couplings());
-        let led = hard.chain(soft).filter(|coupling| coupling.leader() == axis && !coupling.is_open());
-        let slaves = led.flat_map(Coupling::followers);
-        slaves.map(|slave| of(&self.axes[slave].parameters)).fold(of(&self.axes[axis].parameters), f64::min)
+        let members = self.coupled_with(axis);
+        members.into_iter().map(|member| of(&self.axes[member].parameters)).fold(f64::INFINITY, f64::min)
     }
 
     /// The offsets of the lists, after an update of a list at run time.

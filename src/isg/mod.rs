@@ -11,6 +11,7 @@
 //! | `links.rs` | soft gantry: coupling groups |
 //! | `homing.rs` | homing of axes and combinations |
 //! | `channel.rs`, `operation.rs`, `program.rs`, `exchange.rs` | a channel: start, reset, path, blocks, axis exchange |
+//! | `geometry.rs` | the pieces of a path |
 //! | `motion.rs` | setpoints and position control |
 //! | `messages.rs`, `pending.rs`, `rules.rs`, `texts.rs` | messages and causes |
 //! | `charts.rs` | the state machines as tables |
@@ -25,6 +26,10 @@
 //! - "In position" is a window of 0.1 µm; a program ends when its axes stand, also if somebody holds a slide away from its setpoint.
 //! - Position control has a gain of 16.67/s and no feedforward.
 //! - A movement waits for drives that start up after power on; later it needs their releases at once.
+//! - G02 and G03 with a centre and no end point are full circles. M00 holds the program, M01 does nothing: the interface cannot ask for it.
+//! - Single block that comes during a movement holds the program at the end of the block that runs.
+//! - A program that starts while a reset still clears differences waits for that; its groups are restored then (SG-18).
+//! - A slave whose list has no correction velocity (P-AXIS-00075) keeps its difference at RESET.
 
 mod channel;
 mod charts;
@@ -32,6 +37,7 @@ mod cnc;
 mod configuration;
 mod exchange;
 mod gantry;
+mod geometry;
 pub mod hli;
 mod homing;
 pub mod language;

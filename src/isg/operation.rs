@@ -62,9 +62,6 @@ impl State {
                 let Some(path) = channel.selected.clone() else { return };
                 let event = self.log.note_one(place, Why::ProgramStarts, input, EventId::NONE);
                 channel.begin(&path, event, self.lenient);
-                if !self.restore_groups(index, event) {
-                    self.abort_program(index, event);
-                }
             }
             Task::Idle | Task::Runs | Task::Aborts => {}
         }
@@ -248,6 +245,13 @@ impl State {
         let goes = is_free && !is_clearing && channel.task == Task::Runs && !channel.inputs.feed_hold;
         let factor = if goes { f64::from(channel.inputs.feed_override) / 1000.0 } else { 0.0 };
         let Some(path) = channel.path.as_mut().filter(|path| !path.is_empty()) else { return };
+        // Single block acts on the blocks that are on their way already, too.
+        let is_single = channel.inputs.single_block;
+        if is_single {
+            path.stop_at_block_end(cycle);
+        } else {
+            path.pass_block_end();
+        }
         if path.stands() {
             // Single block: the block ends where its axes stand.
             if !has_settled {
@@ -255,6 +259,9 @@ impl State {
             }
             path.go_on();
             channel.blocks.pop_front();
+            if is_single && channel.task == Task::Runs {
+                (channel.task, channel.fetched_one) = (Task::Stands, false);
+            }
             return;
         }
         let before = path.position();
@@ -347,7 +354,8 @@ impl Channel {
         (self.prepared, self.fault, self.wait) = (None, None, Wait::Nothing);
         self.blocks.clear();
         (self.path, self.shown) = (None, 0);
-        self.modal = Modal { motion: 0, absolute: true, plane: 17, feed: self.first_feed, compensation: false };
+        self.modal = Modal { feed: self.first_feed, ..Modal::default() };
+        (self.halts, self.restores) = (false, true);
         self.manual.clear();
         if !self.retains_axes {
             self.axes = self.configured.clone();

@@ -9,15 +9,12 @@ use super::links::Refused;
 use super::messages;
 use super::rules::Why;
 use super::state::State;
-use crate::motion::path::{Circle, Feed, PATH_AXES, PathBlock, Refused as PathRefused, Turn, Way};
 use crate::nc_program::Program;
-use crate::units::{AxisNumber, Position};
+use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text};
 
 /// Blocks that are fetched in a cycle at most: a program that jumps for ever does not stop the time.
 const FETCHED: usize = 64;
-/// How far the radii at start and end of an arc may differ: 0.01 mm.
-const RADII: f64 = 10_000.0;
 
 /// The channel, as the language sees it.
 struct View<'a> {
@@ -67,15 +64,19 @@ impl Environment for View<'_> {
 }
 
 /// A block that is refused: the message, and its second to fourth parameter after the channel and the block.
-type Outcome = Result<(), Refused>;
+pub(super) type Outcome = Result<(), Refused>;
 
-fn value(text: &str) -> Refused {
+/// A value that is not possible.
+pub(super) fn value(text: &str) -> Refused {
     Refused(messages::NC_VALUE, Parameter::Text(short_text(text)), Parameter::None)
 }
 
 impl State {
     /// One cycle of a program that runs.
     pub(super) fn step_program(&mut self, index: usize) {
+        if !self.restores(index) {
+            return;
+        }
         self.step_wait(index);
         for _ in 0..FETCHED {
             let channel = &self.channels[index];
@@ -84,6 +85,13 @@ impl State {
             }
             let is_executed = self.is_executed(index);
             let channel = &mut self.channels[index];
+            if channel.halts {
+                if is_executed {
+                    channel.halts = false;
+                    channel.task = Task::Stands;
+                }
+                return;
+            }
             if channel.fetched_one && channel.inputs.single_block {
                 if is_executed {
                     channel.fetched_one = false;
@@ -122,6 +130,25 @@ impl State {
                 return;
             }
         }
+    }
+
+    /// The program start switches groups on again, as soon as the differences of the last reset are cleared. False if the program waits for
+    /// that, or if it is not possible.
+    fn restores(&mut self, index: usize) -> bool {
+        let channel = &mut self.channels[index];
+        if !channel.restores || channel.task != Task::Runs {
+            return true;
+        }
+        if channel.groups.iter().any(|group| group.ending) {
+            return false;
+        }
+        channel.restores = false;
+        let cause = channel.causes.program;
+        let restored = self.restore_groups(index, cause);
+        if !restored {
+            self.abort_program(index, cause);
+        }
+        restored
     }
 
     fn step_wait(&mut self, index: usize) {
@@ -262,7 +289,9 @@ impl State {
                 41 | 42 => modal.compensation = true,
                 90 => modal.absolute = true,
                 91 => modal.absolute = false,
-                4 | 9 | 53..=61 | 64 | 74 | 80 | 94 | 162 | 200..=202 | 260 | 261 | 359 | 360 => {}
+                161 => modal.centre_absolute = true,
+                162 => modal.centre_absolute = false,
+                4 | 9 | 53..=61 | 64 | 71 | 74 | 80 | 94 | 200..=202 | 260 | 261 | 359 | 360 => {}
                 other => return Err(value(&format!("G{other} is not modelled"))),
             }
         }
@@ -272,7 +301,9 @@ impl State {
             }
             modal.feed = feed;
         }
-        let has_words = !block.axes.is_empty();
+        // A circle without an end point is a full one.
+        let is_circle = modal.motion >= 2 && (block.radius.is_some() || block.centre.iter().any(Option::is_some));
+        let has_words = !block.axes.is_empty() || is_circle;
         if has_words {
             self.append_motion(index, block, &modal)?;
         }
@@ -296,6 +327,8 @@ impl State {
         if let Some(command) = &block.command {
             self.command(index, command, cause)?;
         }
+        // M00 holds the program until NC start. M01 does so only on request, and the interface has none.
+        self.channels[index].halts |= block.m.contains(&0);
         match block.end {
             Some(End::Program) => self.channels[index].ended = true,
             Some(End::Aborted) => {
@@ -363,117 +396,7 @@ impl State {
             }
         }
     }
-
-    /// Appends the movement of a block to the path.
-    fn append_motion(&mut self, index: usize, block: &Block, modal: &super::channel::Modal) -> Outcome {
-        if self.channels[index].has_moved() {
-            self.place_path(index);
-            let position = self.channels[index].path.as_ref().map(|path| path.position());
-            self.channels[index].end = position.unwrap_or_default();
-        }
-        let channel = &self.channels[index];
-        let start = channel.end;
-        let mut end = start;
-        for (name, word) in &block.axes {
-            let axis = channel.axis_named(name).ok_or_else(|| unknown(name))?;
-            if channel.is_slave(axis) {
-                return Err(Refused::axis(messages::LINK_SLAVE_PROGRAMMED, axis));
-            }
-            let place = channel.path_axes.iter().position(|other| *other == axis);
-            let place = place.ok_or_else(|| value(&format!("{name} is beyond {PATH_AXES} axes")))?;
-            let way = word * Position::PER_USER_UNIT;
-            end[place] = if modal.absolute { way } else { start[place] + way };
-            if !end[place].is_finite() || end[place].abs() > FARTHEST {
-                return Err(value(&format!("{name} is too far")));
-            }
-            end[place] = end[place].round();
-        }
-        let counted = std::array::from_fn(|place| {
-            channel.path_axes.get(place).is_some_and(|axis| !self.axes[*axis].parameters.is_rotary)
-        });
-        let feed = if modal.motion == 0 {
-            Feed::Rapid
-        } else {
-            let feed = modal.feed * channel.feed_unit * Position::PER_USER_UNIT / 60.0;
-            if feed <= 0.0 {
-                return Err(value("no feed"));
-            }
-            Feed::Programmed(feed)
-        };
-        let way = match modal.motion {
-            0 | 1 => Way::line(start, end, counted),
-            turn => {
-                let circle = self.circle(index, block, modal.plane, turn, start, end)?;
-                let arc = Way::arc(start, end, circle, RADII, counted);
-                arc.map_err(|_| value("the circle does not close"))?
-            }
-        };
-        let channel = &mut self.channels[index];
-        channel.next_block += 1;
-        let number = channel.next_block;
-        let exact_stop = channel.inputs.single_block;
-        let Some(path) = &mut channel.path else { return Ok(()) };
-        match path.append(PathBlock { way, feed, exact_stop, number }, self.cycle.0.seconds()) {
-            Ok(()) => channel.blocks.push_back((number, block.origin.block())),
-            Err(PathRefused::NoWay | PathRefused::Full) => {}
-        }
-        channel.end = end;
-        Ok(())
-    }
-
-    /// The circle of G02 or G03: its centre counts from the start (G162).
-    fn circle(
-        &self,
-        index: usize,
-        block: &Block,
-        plane: u16,
-        turn: u16,
-        start: [f64; PATH_AXES],
-        end: [f64; PATH_AXES],
-    ) -> Result<Circle, Refused> {
-        let channel = &self.channels[index];
-        let (first, second) = match plane {
-            18 => (2, 0),
-            19 => (1, 2),
-            _ => (0, 1),
-        };
-        let place = |main: u16| {
-            let member = channel.member_at(main)?;
-            channel.path_axes.iter().position(|axis| *axis == member.axis)
-        };
-        let plane = place(first).zip(place(second)).ok_or_else(|| value("no axes of the plane"))?;
-        let plane = [plane.0, plane.1];
-        let clockwise = turn == 2;
-        let turn = if clockwise { Turn::Clockwise } else { Turn::Counterclockwise };
-        let centre = match block.radius {
-            Some(radius) => {
-                let [dx, dy] = plane.map(|axis| end[axis] - start[axis]);
-                let chord = (dx * dx + dy * dy).sqrt();
-                let radius_in_increments = radius.abs() * Position::PER_USER_UNIT;
-                let square = radius_in_increments * radius_in_increments - 0.25 * chord * chord;
-                if chord < 0.5 || square < -RADII * radius_in_increments {
-                    return Err(value("the circle does not close"));
-                }
-                let height = square.max(0.0).sqrt() / chord;
-                // The centre is left of the chord on a counterclockwise arc of less than half a turn.
-                let side = if clockwise == (radius < 0.0) { height } else { -height };
-                let [x, y] = plane.map(|axis| 0.5 * (start[axis] + end[axis]));
-                [x - side * dy, y + side * dx]
-            }
-            None => {
-                let way = |word: Option<f64>| word.unwrap_or(0.0) * Position::PER_USER_UNIT;
-                [
-                    start[plane[0]] + way(block.centre[usize::from(first)]),
-                    start[plane[1]] + way(block.centre[usize::from(second)]),
-                ]
-            }
-        };
-        Ok(Circle { plane, centre, turn, turns: 0 })
-    }
 }
-
-/// The farthest position of a block, in increments: ten kilometres.
-const FARTHEST: f64 = 1e13;
 
 /// An axis that the channel does not have.
 pub(super) fn unknown(name: &str) -> Refused {
