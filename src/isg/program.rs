@@ -11,7 +11,7 @@ use super::rules::Why;
 use super::state::State;
 use crate::nc_program::Program;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm, short_text};
 
 /// Blocks that are fetched in a cycle at most: a program that jumps for ever does not stop the time.
 const FETCHED: usize = 64;
@@ -220,7 +220,8 @@ impl State {
         match next {
             Ok(Prepared::Block(block)) => {
                 channel.fetched_one = channel.inputs.single_block;
-                let waits = block.command.is_some() || !block.homing.is_empty() || block.dwell.is_some();
+                let ends = block.end == Some(End::Aborted);
+                let waits = block.command.is_some() || !block.homing.is_empty() || block.dwell.is_some() || ends;
                 if waits || !block.warnings.is_empty() {
                     channel.prepared = Some(*block);
                 } else {
@@ -267,6 +268,11 @@ impl State {
         }
         let number = block.origin.block();
         if let Err(Refused(message, third, fourth)) = self.try_block(index, block) {
+            if !self.is_executed(index) {
+                // The blocks before it are executed first.
+                self.channels[index].prepared = Some(block.clone());
+                return;
+            }
             let more = [Parameter::Number(number.into()), third, fourth];
             let other = match third {
                 Parameter::Axis(axis) => Some(axis),
@@ -331,16 +337,23 @@ impl State {
         self.channels[index].halts |= block.m.contains(&0);
         match block.end {
             Some(End::Program) => self.channels[index].ended = true,
-            Some(End::Aborted) => {
-                return Err(Refused(
-                    messages::NC_CALL,
-                    Parameter::Text(short_text("M30 in a subroutine")),
-                    Parameter::None,
-                ));
-            }
+            Some(End::Aborted) => self.abort_with_warning(index, block.origin.block()),
             Some(End::Subroutine) | None => {}
         }
         Ok(())
+    }
+
+    /// M30 in a subroutine: the whole program ends, with a warning and without an error state.
+    fn abort_with_warning(&mut self, index: usize, block: u32) {
+        let channel = &mut self.channels[index];
+        let (number, place) = (channel.number, Place::Channel(channel.number));
+        let event = self.log.note_plain(place, Why::Raised, channel.causes.program);
+        let text = Parameter::Text(short_text("M30 in a subroutine"));
+        let parameters = [Parameter::Channel(number), Parameter::Number(block.into()), text, Parameter::None];
+        self.pending.raise_as(RaisedAlarm { number: messages::NC_CALL, place, parameters }, None, true, event);
+        channel.causes.program = self.log.note_plain(place, Why::ProgramAborted, event);
+        channel.task = Task::Aborts;
+        channel.interpreter = None;
     }
 
     /// The block that runs is another one.

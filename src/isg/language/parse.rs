@@ -13,6 +13,10 @@ pub(super) fn content(text: &str, from: usize, lenient: bool) -> Result<Content,
     if cursor.is_end() || lenient && cursor.rest().trim() == ":" {
         return Ok(Content::Empty);
     }
+    // The variables between these lines are written like everywhere else.
+    if matches!(cursor.rest().trim(), "#VAR" | "#ENDVAR") {
+        return Ok(Content::Empty);
+    }
     match cursor.peek() {
         Some('#') => return command(&mut cursor, lenient).map(Content::Command),
         Some('$') => {
