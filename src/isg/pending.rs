@@ -28,7 +28,8 @@ impl Pending {
     /// Raises a message that is a warning, or an error.
     pub(super) fn raise_as(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, is_warning: bool, cause: EventId) {
         let key = (alarm.number, alarm.place, other, is_warning);
-        let found = self.counts.iter_mut().find(|count| (count.number, count.place, count.other, count.is_warning) == key);
+        let found =
+            self.counts.iter_mut().find(|count| (count.number, count.place, count.other, count.is_warning) == key);
         match found {
             Some(count) => count.count += 1,
             None => {
