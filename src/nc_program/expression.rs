@@ -7,6 +7,7 @@ use super::dialect::Dialect;
 use super::function::Function;
 use super::names::AxisNames;
 use super::operator::{Operator, Prefix};
+use super::syntax::{Command, is_keyword};
 use super::token::{Kind, Symbol, Token};
 use super::value::Value;
 
@@ -47,6 +48,12 @@ pub(super) enum Expression {
         arguments: Vec<Self>,
         at: Span,
     },
+    /// `SET(1,,3)`, `REP(0)`, `REP(0,5)`: values for an array, only to be assigned.
+    List {
+        is_repeated: bool,
+        values: Vec<Option<Self>>,
+        at: Span,
+    },
 }
 
 impl Expression {
@@ -62,6 +69,7 @@ impl Expression {
                 Self::Prefixed { operand, .. } => operand.any(test),
                 Self::Binary { left, right, .. } => left.any(test) || right.any(test),
                 Self::Function { arguments, .. } => arguments.iter().any(|one| one.any(test)),
+                Self::List { values, .. } => values.iter().flatten().any(|one| one.any(test)),
             }
     }
 }
@@ -195,13 +203,13 @@ impl<'a> Parser<'a> {
                 Symbol::Minus => Operator::Subtract,
                 Symbol::Times => Operator::Multiply,
                 Symbol::Divide => Operator::Divide,
+                Symbol::Colon => Operator::Chain,
                 Symbol::Assign
                 | Symbol::Open
                 | Symbol::Close
                 | Symbol::OpenIndex
                 | Symbol::CloseIndex
-                | Symbol::Comma
-                | Symbol::Colon => return None,
+                | Symbol::Comma => return None,
             },
             Kind::Name(name) => match name.as_str() {
                 "DIV" => Operator::WholeDivide,
@@ -306,6 +314,10 @@ impl<'a> Parser<'a> {
         }
         if let Some(axis) = self.axes.find(name) {
             return Ok(Expression::Constant(Value::Axis(axis)));
+        }
+        let is_word = is_keyword(name) || self.dialect.function(name).is_some() || Command::find(name).is_some();
+        if is_word {
+            return Err(Fault::new(12080, at, "a value is missing: this is a word of the language"));
         }
         let indices = self.indices()?;
         Ok(Expression::Variable { name: name.to_owned(), indices, at })

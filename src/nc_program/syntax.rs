@@ -81,9 +81,9 @@ pub(super) enum Initial {
     /// 0, FALSE, or an empty text.
     None,
     /// A value, or several of an array; the others keep their initial value.
-    Values(Vec<Expression>),
-    /// REP: all elements.
-    All(Expression),
+    Values(Vec<Option<Expression>>),
+    /// REP: all elements, or the first ones.
+    All(Expression, Option<Expression>),
 }
 
 /// `PROC name(…) SAVE DISPLOF SBLOF`.
@@ -318,6 +318,71 @@ pub(super) enum Command {
     SingleBlockOn,
     /// RDISABLE, in synchronised actions only.
     ReadInDisable,
+}
+
+/// Words of the language that are no addresses, functions or commands: none of them is the name of a variable or of a program.
+const KEYWORDS: &[&str] = &[
+    "ACTBLOCNO",
+    "AND",
+    "AXIS",
+    "B_AND",
+    "B_NOT",
+    "B_OR",
+    "B_XOR",
+    "BOOL",
+    "CALL",
+    "CASE",
+    "CHAR",
+    "DEF",
+    "DEFAULT",
+    "DEFINE",
+    "DISPLOF",
+    "DISPLON",
+    "DIV",
+    "DO",
+    "ELSE",
+    "ENDFOR",
+    "ENDIF",
+    "ENDLABEL",
+    "ENDLOOP",
+    "ENDWHILE",
+    "EVERY",
+    "EXTCALL",
+    "EXTERN",
+    "FOR",
+    "FRAME",
+    "FROM",
+    "GOTO",
+    "GOTOB",
+    "GOTOC",
+    "GOTOF",
+    "GOTOS",
+    "IF",
+    "INT",
+    "LOOP",
+    "MOD",
+    "NOT",
+    "OF",
+    "OR",
+    "PROC",
+    "REAL",
+    "REPEAT",
+    "REPEATB",
+    "RET",
+    "SAVE",
+    "STRING",
+    "TO",
+    "UNTIL",
+    "VAR",
+    "WHEN",
+    "WHENEVER",
+    "WHILE",
+    "XOR",
+];
+
+/// Whether a word can only stand where the language expects it (12080).
+pub(super) fn is_keyword(name: &str) -> bool {
+    KEYWORDS.binary_search(&name).is_ok()
 }
 
 /// Names, and whether the command is alone in its block.

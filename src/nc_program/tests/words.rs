@@ -190,7 +190,7 @@ fn functions_that_are_not_modelled_are_refused() {
         "FD=5",
         "MCALL L10",
         "TRAORI",
-        "DEF FRAME AB",
+        "R1=CROT(Z,45)",
         "COUPDEF(X,Y)",
         "MEAS=1",
         "SETMS(2)",
