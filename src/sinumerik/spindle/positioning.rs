@@ -47,7 +47,7 @@ impl State {
         }
         if let Some(spindle) = self.spindles[number].as_deref_mut() {
             let phase = Phase::Searching { from: None };
-            let positioning = Positioning { angle: Position::from_user(angle), dimension, phase };
+            let positioning = Positioning { angle: Position::from_user(angle), dimension, speed: None, phase };
             (spindle.mode, spindle.mode_cause) = (Mode::Positioning(positioning), event);
             (spindle.direction, spindle.stopped, spindle.cause) = (0, false, event);
             spindle.position_cause = event;
@@ -68,10 +68,11 @@ impl State {
         let holder = self.spindle_holder(unit, &spindle, own, to_nck);
         let factor = if holder.is_some() { 0.0 } else { self.spindle_factor(number, own, signals) };
         let stage = own.stage(spindle.gear_stage);
-        let velocity = stage.positioning_speed.min(own.speed_limit) * factor;
+        let positioning_speed = order.speed.unwrap_or(stage.positioning_speed);
+        let velocity = positioning_speed.min(own.speed_limit) * factor;
         // A spindle whose setpoint is not output (1.3, program test) passes no zero mark.
         let referenced = self.axes[number].is_referenced() || self.axes[number].signals.disabled_at.is_some();
-        let slow = self.axes[number].setpoint.velocity().abs() <= stage.positioning_speed * 1.001;
+        let slow = self.axes[number].setpoint.velocity().abs() <= positioning_speed * 1.001;
         if let Phase::Searching { from } = order.phase {
             if referenced && slow {
                 order.phase = Phase::Going { target: self.begin_position_control(number, &order, own, parameters) };
