@@ -16,6 +16,7 @@
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
 //! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
 //! | `geometry.rs` | units, offsets, circles |
+//! | `executable.rs` | a block that is ready to be executed |
 //! | `execution.rs` | the block that runs: before, during and at the end of its motion; the change to the next one |
 //! | `ending.rs` | the end of a block: when its motion is over, programmed stops, single block |
 //! | `search.rs` | block search: without calculation, to the contour, to the end point, by program test |
@@ -45,6 +46,7 @@ pub(super) mod control;
 pub(super) mod coordination;
 pub(super) mod ending;
 pub(super) mod environment;
+pub(super) mod executable;
 pub(super) mod execution;
 pub(super) mod geometry;
 pub(super) mod main_run;

@@ -42,7 +42,9 @@ impl State {
             self.start_generators(channel, parameters, pressed);
             return;
         }
-        if !self.is_referenced(channel, parameters) {
+        let may_start = self.is_referenced(channel, parameters)
+            || self.may_start_unreferenced(channel, mode == Mode::Mda, parameters);
+        if !may_start {
             let referenced = channel_from_nck::all_axes_requiring_reference_point_are_referenced;
             let missing = channel_signal(channel, referenced, false);
             let event = self.log.note(place, Rule::StartRefused, [pressed, missing, Input::None], EventId::NONE);
@@ -159,8 +161,13 @@ impl State {
     ) -> Run {
         let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
         let limits = limits(own, parameters);
-        let behind =
-            Behind { interpreter: interpreter.clone(), axis_feeds: Vec::new(), path_override: 1.0, end: position };
+        let behind = Behind {
+            interpreter: interpreter.clone(),
+            axis_feeds: Vec::new(),
+            path_override: 1.0,
+            programmed_on_path: AxisSet::NONE,
+            end: position,
+        };
         Run {
             interpreter,
             is_mda,
@@ -206,6 +213,7 @@ impl State {
             commanded_arrived: false,
             read_in_disabled: false,
             path_override: 1.0,
+            programmed_on_path: AxisSet::NONE,
             waits: None,
             starts: Vec::new(),
             search: None,
