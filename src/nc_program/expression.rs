@@ -271,6 +271,9 @@ impl<'a> Parser<'a> {
                 let name = numbered.name();
                 match self.axes.find(&name) {
                     Some(axis) => Ok(Expression::Constant(Value::Axis(axis))),
+                    None if numbered.letter == 'G' => {
+                        Err(Fault::new(12080, at, "a value is missing: this is a G function"))
+                    }
                     None => Err(Fault::new(12550, at, "neither an axis nor a variable has this name").about(name)),
                 }
             }

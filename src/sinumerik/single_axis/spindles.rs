@@ -50,14 +50,22 @@ impl State {
         let stop_was = std::mem::replace(&mut self.single.axes[axis].spindle_stop_was, stop);
         if let (Some((_, order, signal)), false) = (started, was) {
             let pressed = axis_signal(axis, *signal, true);
+            if parameters.axes[axis].spindle.is_none() || self.spindles[axis].is_none() {
+                self.refuse_spindle(axis, pressed);
+                return;
+            }
             let several = starts.iter().filter(|(is_set, ..)| *is_set).nth(1);
             let begun = match several {
                 Some((.., second)) => Err((1, axis_signal(axis, *second, true))),
                 None => self.begin_spindle_order(axis, *order, signals, (parameters, pressed)),
             };
             if let Err((error, input)) = begun {
-                let event =
-                    self.log.note(Place::Axis(axis), Rule::OrderRefused, [pressed, input, Input::None], EventId::NONE);
+                let event = self.log.note(
+                    Place::Axis(axis),
+                    Rule::SpindleOrderRefused,
+                    [pressed, input, Input::None],
+                    EventId::NONE,
+                );
                 let one = &mut self.single.axes[axis];
                 (one.outcome, one.cause) = (Outcome::Refused(error), event);
             }
@@ -70,7 +78,7 @@ impl State {
             } else {
                 axis_signal(axis, axis_to_nck::stop_spindle_oscillation, true)
             };
-            let event = self.log.note_one(Place::Axis(axis), Rule::OrderWithdrawn, input, EventId::NONE);
+            let event = self.log.note_one(Place::Axis(axis), Rule::SpindleOrderStopped, input, EventId::NONE);
             self.brake_spindle(axis, event);
             self.end_spindle_order(axis, Outcome::None, event);
         }
@@ -89,8 +97,7 @@ impl State {
         signals: &AxisToNck,
         (parameters, pressed): (&Parameters, Input),
     ) -> Result<(), Refusal> {
-        let Some(own) = parameters.axes[axis].spindle.as_deref().filter(|_| self.spindles[axis].is_some()) else {
-            self.refuse_spindle(axis, pressed);
+        let Some(own) = parameters.axes[axis].spindle.as_deref() else {
             return Err((100, Input::None));
         };
         if self.owners.of(axis).holder != Holder::Plc {
@@ -105,8 +112,8 @@ impl State {
         match order {
             SpindleOrder::Position => {
                 let (angle, dimension) = wanted_angle(axis, signals)?;
-                let event = self.log.note_one(place, Rule::OrderStarted, pressed, EventId::NONE);
-                self.position_spindle(axis, (angle, dimension), parameters, event);
+                let event = self.log.note_one(place, Rule::SpindleOrder, pressed, EventId::NONE);
+                self.position_spindle(axis, (angle, dimension), Rule::SpindleOrder, parameters, event);
                 let speed = if speed > 0.0 { Some(speed * REVOLUTION_PER_MINUTE) } else { None };
                 let Some(spindle) = self.spindles[axis].as_deref_mut() else { return Err((105, Input::None)) };
                 let Mode::Positioning(positioning) = &mut spindle.mode else {
@@ -122,12 +129,12 @@ impl State {
                 if speed <= 0.0 {
                     return Err((111, Input::None));
                 }
-                let event = self.log.note_one(place, Rule::OrderStarted, pressed, EventId::NONE);
+                let event = self.log.note_one(place, Rule::SpindleOrder, pressed, EventId::NONE);
                 self.rotate_spindle(axis, speed, own, signals, event);
                 self.take_spindle_order(axis, order, event);
             }
             SpindleOrder::Oscillate => {
-                let event = self.log.note_one(place, Rule::OrderStarted, pressed, EventId::NONE);
+                let event = self.log.note_one(place, Rule::SpindleOrder, pressed, EventId::NONE);
                 self.brake_spindle(axis, event);
                 self.take_spindle_order(axis, order, event);
             }
@@ -211,13 +218,13 @@ impl State {
         if !goes_on {
             let missing = self.alarms.is_pending(SPINDLE_MARK_MISSING, place);
             let error = if missing { 107 } else { 115 };
-            let event = self.log.note_plain(place, Rule::OrderEnds, spindle.cause);
+            let event = self.log.note_plain(place, Rule::SpindleOrderEnds, spindle.cause);
             self.end_spindle_order(axis, Outcome::Failed(error), event);
         } else if order == SpindleOrder::Position && is_there {
-            let event = self.log.note_plain(place, Rule::OrderReached, spindle.position_cause);
+            let event = self.log.note_plain(place, Rule::SpindleOrderReached, spindle.position_cause);
             self.end_spindle_order(axis, Outcome::Reached, event);
         } else if is_there != (one.outcome == Outcome::Reached) {
-            let event = self.log.note_plain(place, Rule::OrderReached, spindle.cause);
+            let event = self.log.note_plain(place, Rule::SpindleOrderReached, spindle.cause);
             let one = &mut self.single.axes[axis];
             (one.outcome, one.cause) = (if is_there { Outcome::Reached } else { Outcome::None }, event);
         }
@@ -229,6 +236,8 @@ impl State {
         let channel = Parameter::Channel(self.owners.of(axis).channel);
         let shown = [channel, Parameter::Axis(axis), Parameter::Number(NO_SPINDLE), Parameter::None];
         self.alarms.raise(alarms::SPINDLE_START_REFUSED, Place::Axis(axis), shown, event);
+        let one = &mut self.single.axes[axis];
+        (one.outcome, one.cause) = (Outcome::Refused(100), event);
     }
 }
 

@@ -29,16 +29,17 @@ use crate::variables::{EventId, Input, Place, Quantity};
 const SEARCH: Position = Position::new(720_000_000);
 
 impl State {
-    /// SPOS, SPOSA, M19: a program orders a position.
+    /// SPOS, SPOSA, M19, or the PLC: the rule orders a position.
     pub(in crate::sinumerik) fn position_spindle(
         &mut self,
         number: AxisNumber,
         (angle, dimension): (f64, Dimension),
+        rule: Rule,
         parameters: &Parameters,
         cause: EventId,
     ) {
         let place = Place::Axis(number);
-        let event = self.log.note_plain(place, Rule::SpindlePositioned, cause);
+        let event = self.log.note_plain(place, rule, cause);
         if self.axes[number].measuring_system.is_none() || parameters.axes[number].encoders == 0 {
             let none = axis_signal(number, axis_from_nck::position_measuring_system_1_activated, false);
             let event = self.log.note_one(place, Rule::SpindleWithoutEncoder, none, event);
