@@ -48,7 +48,7 @@ impl Interpreter {
         let mut scope = Running { levels: &self.levels, environment, axes: work.axes, offset: &self.offset };
         let place = scope.place(&assignment.place)?;
         let writes = match &assignment.value {
-            Expression::List { is_repeated, values, at } => listed(place, *is_repeated, values, *at, &mut scope)?,
+            Expression::List { is_repeated, values, at } => listed(&place, *is_repeated, values, *at, &mut scope)?,
             value => vec![(place, evaluate(value, &mut scope)?.value)],
         };
         for (place, value) in writes {
@@ -63,13 +63,13 @@ impl Interpreter {
 
 /// The elements that SET and REP write, from the named one on.
 fn listed(
-    first: Place,
+    first: &Place,
     is_repeated: bool,
     values: &[Option<Expression>],
     at: Span,
     scope: &mut Running<'_>,
 ) -> Result<Writes, Fault> {
-    let room = match &first {
+    let room = match first {
         Place::Element { level, variable, element, .. } => {
             let found = scope.levels.get(*level).and_then(|level| level.variables.get(*variable));
             let count = found.map_or(0, |variable| match &variable.content {
@@ -91,7 +91,7 @@ fn listed(
         }
         for (index, value) in values.iter().enumerate() {
             if let Some(value) = value {
-                writes.push((behind(&first, index), evaluate(value, scope)?.value));
+                writes.push((behind(first, index), evaluate(value, scope)?.value));
             }
         }
         return Ok(writes);
@@ -109,7 +109,7 @@ fn listed(
     if count > room {
         return Err(too_many(count));
     }
-    writes.extend((0..count).map(|index| (behind(&first, index), value.clone())));
+    writes.extend((0..count).map(|index| (behind(first, index), value.clone())));
     Ok(writes)
 }
 
