@@ -7,10 +7,11 @@ use super::head::{head, significant};
 use super::names::AxisNames;
 use super::syntax::{
     Address, Call, Called, Declaration, Direction, Initial, Jump, Parameter, Procedure, RepeatPart, SourceBlock,
-    Statement, Target, Word, is_keyword,
+    Statement, Target, Word,
 };
 use super::token::{Kind, Symbol, tokens};
 use super::value::{Type, Value};
+use super::vocabulary::is_keyword;
 use super::words::Item;
 
 /// Reads a block.
@@ -142,7 +143,7 @@ impl Parser<'_> {
             && name.len() > 1
             && self.dialect.function(name).is_none()
             && self.dialect.refused(name).is_none()
-            && super::syntax::Command::find(name).is_none()
+            && super::vocabulary::Command::find(name).is_none()
             && self.axes.find(name).is_none()
     }
 

@@ -7,9 +7,10 @@ use super::dialect::Dialect;
 use super::function::Function;
 use super::names::AxisNames;
 use super::operator::{Operator, Prefix};
-use super::syntax::{Command, is_keyword};
+
 use super::token::{Kind, Symbol, Token};
 use super::value::Value;
+use super::vocabulary::{Command, is_keyword};
 
 /// An expression.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

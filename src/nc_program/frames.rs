@@ -1,9 +1,7 @@
 //! Frames: only their offsets exist (CTRANS, `$P_PFRAME`, variables of type FRAME, `$P_UIFR`).
 
 use super::alarm::{Fault, Span};
-use super::evaluate::Term;
 use super::names::AxisIndex;
-use super::scope::Place;
 use super::value::{Type, Value};
 use super::variables::Variable;
 
@@ -47,27 +45,18 @@ pub(super) fn ctrans(values: &[Value], at: Span) -> Result<Value, Fault> {
     Ok(Value::Frame(offsets))
 }
 
-/// The indices of an element, and the axis whose offset is meant: `FRAMES[2,X,TR]`.
-pub(super) fn component<'a>(
-    variable: &Variable,
-    indices: &'a [Term],
-    at: Span,
-) -> Result<(&'a [Term], Option<AxisIndex>), Fault> {
+/// The axis whose offset the last indices of a variable mean: `FRAMES[2,X,TR]`.
+pub(super) fn component(variable: &Variable, indices: &[Value], at: Span) -> Result<Option<AxisIndex>, Fault> {
     let count = variable.dimensions.len();
     if variable.kind != Type::Frame || indices.len() != count + 2 {
-        return Ok((indices, None));
+        return Ok(None);
     }
-    let (of_element, of_frame) = indices.split_at(count);
-    let values: Vec<_> = of_frame.iter().map(|term| term.value.clone()).collect();
-    Ok((of_element, Some(axis_of_offset(&values, at)?)))
+    axis_of_offset(&indices[count..], at).map(Some)
 }
 
-/// `$P_PFRAME`, `$P_PFRAME[X,TR]`.
-pub(super) fn programmable(indices: &[Value], at: Span) -> Result<Place, Fault> {
-    if indices.is_empty() {
-        return Ok(Place::Programmable(None));
-    }
-    axis_of_offset(indices, at).map(|axis| Place::Programmable(Some(axis)))
+/// `$P_PFRAME`, or the axis of `$P_PFRAME[X,TR]`.
+pub(super) fn programmable(indices: &[Value], at: Span) -> Result<Option<AxisIndex>, Fault> {
+    if indices.is_empty() { Ok(None) } else { axis_of_offset(indices, at).map(Some) }
 }
 
 /// The axis of `X,TR`.

@@ -19,9 +19,10 @@ use super::prepared::{Block, End, Origin, Prepared};
 use super::scope::{Running, write};
 use super::source::Program;
 use super::state::{Interpreter, Level};
-use super::syntax::{Command, Declaration, Initial, SourceBlock, Statement, Word};
+use super::syntax::{Declaration, Initial, SourceBlock, Statement, Word};
 use super::value::{Type, Value};
 use super::variables::{Content, Variable, index};
+use super::vocabulary::Command;
 use super::waiting::waits;
 
 /// Calculation blocks in one call, so that an endless loop does not hold the channel.

@@ -34,7 +34,9 @@ impl Scope for Known<'_> {
             }
             return Err(Fault::new(12550, at, "neither a variable nor an axis has this name").about(name));
         };
-        let (indices, axis) = component(variable, indices, at)?;
+        let values: Vec<_> = indices.iter().map(|term| term.value.clone()).collect();
+        let axis = component(variable, &values, at)?;
+        let indices = if axis.is_some() { &indices[..variable.dimensions.len()] } else { indices };
         let kind = if axis.is_some() { Type::Real } else { variable.kind };
         let mut found = Vec::new();
         for term in indices {

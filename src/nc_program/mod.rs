@@ -68,6 +68,7 @@ mod token;
 mod trigonometry;
 mod value;
 mod variables;
+mod vocabulary;
 mod waiting;
 mod words;
 

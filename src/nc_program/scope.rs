@@ -82,7 +82,7 @@ impl Running<'_> {
                 Ok(Some(Value::Text(format!("_N_{}", file.replace('.', "_")))))
             }
             ("$P_PFRAME", _) => {
-                let place = programmable(indices, at)?;
+                let place = Place::Programmable(programmable(indices, at)?);
                 self.read(&place, at).map(Some)
             }
             _ => Ok(None),
@@ -100,8 +100,10 @@ impl Running<'_> {
 
     fn element_of(&self, name: &str, indices: &[Term], at: Span) -> Result<Place, Fault> {
         let (level, variable, found) = self.find(name, at)?;
-        let (indices, axis) = component(found, indices, at)?;
-        let indices: Vec<i32> = indices.iter().map(|term| index(&term.value, at)).collect::<Result<_, _>>()?;
+        let values: Vec<_> = indices.iter().map(|term| term.value.clone()).collect();
+        let axis = component(found, &values, at)?;
+        let values = if axis.is_some() { &values[..found.dimensions.len()] } else { &values[..] };
+        let indices: Vec<i32> = values.iter().map(|value| index(value, at)).collect::<Result<_, _>>()?;
         let element = element(&found.dimensions, &indices, at)?;
         let kind = found.kind;
         let place = match &found.content {
@@ -137,7 +139,7 @@ impl Running<'_> {
             Expression::System { name, indices, .. } => {
                 let indices: Vec<_> = system_indices(indices, self)?.into_iter().map(|term| term.value).collect();
                 if name == "$P_PFRAME" {
-                    return programmable(&indices, Span::default());
+                    return programmable(&indices, Span::default()).map(Place::Programmable);
                 }
                 Ok(Place::System { name: name.clone(), indices })
             }

@@ -3,11 +3,10 @@
 use super::alarm::{Fault, Span};
 use super::expression::{Expression, Parser};
 use super::function::Function;
-use super::syntax::{
-    Address, AddressWord, Assignment, Command, Frequency, Modifier, Synchronised, SynchronisedWord, Word, is_keyword,
-};
+use super::syntax::{Address, AddressWord, Assignment, Frequency, Modifier, Synchronised, SynchronisedWord, Word};
 use super::token::{Kind, Numbered, Symbol};
 use super::value::Value;
+use super::vocabulary::{Command, is_keyword};
 
 /// A word, or an assignment.
 #[derive(Debug)]

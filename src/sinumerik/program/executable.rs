@@ -1,14 +1,31 @@
-//! A block that is ready to be executed.
+//! A block that is ready to be executed, and the state of preparation behind it.
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion::path::PathBlock;
-use crate::nc_program::{Action, End, Modal, Origin};
+use crate::motion::path::{PathBlock, PerPathAxis};
+use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin};
 use crate::sinumerik::parameters::programs::OutputTime;
 use crate::sinumerik::program::auxiliary::Package;
 use crate::sinumerik::program::positioning::Positioning;
-use crate::sinumerik::program::state::{Behind, ReadBlock};
-use crate::units::AxisNumber;
+use crate::units::{AxisNumber, AxisSet};
+
+/// The state of preparation behind a block: from there it can read on once more.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Behind {
+    pub interpreter: Interpreter,
+    pub axis_feeds: Vec<(AxisNumber, f64)>,
+    pub path_override: f64,
+    pub programmed_on_path: AxisSet,
+    /// Where the axes of the path are then.
+    pub end: PerPathAxis,
+}
+
+/// A block that was read, with the state behind it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ReadBlock {
+    pub block: Block,
+    pub behind: Behind,
+}
 
 /// A block that is ready to be executed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -24,7 +24,7 @@
 //! | `synchronised.rs` | synchronised actions |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
-//! | `positioning.rs` | POS and POSA |
+//! | `positioning.rs`, `own_ways.rs` | axes on their own ways: POS and POSA, rapid traverse with MD20730 = 0 |
 //! | `referencing.rs` | G74 |
 //! | `refused.rs` | couplings and spindles that the channel does not have |
 //! | `preset.rs` | PRESETON, and PRESET of the operator |
@@ -51,6 +51,7 @@ pub(super) mod execution;
 pub(super) mod geometry;
 pub(super) mod main_run;
 pub(super) mod outputs;
+pub(super) mod own_ways;
 pub(super) mod path;
 pub(super) mod positioning;
 pub(super) mod preparation;

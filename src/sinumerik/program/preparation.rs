@@ -13,9 +13,9 @@ use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::environment::Channel;
-use crate::sinumerik::program::executable::{Criterion, Executable};
+use crate::sinumerik::program::executable::{Behind, Criterion, Executable, ReadBlock};
 use crate::sinumerik::program::geometry::{self, BadCircle};
-use crate::sinumerik::program::state::{Behind, BlockAlarm, Preparation, ReadBlock, Run, block_name, on_path};
+use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name, on_path};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, short_text};
 

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::SearchKind;
 use crate::motion::path::{PATH_AXES, Path, PathLimits, PerPathAxis};
-use crate::nc_program::{Block, Interpreter, Modal, ProgramAlarm, SynchronisedAction};
+use crate::nc_program::{Interpreter, Modal, ProgramAlarm, SynchronisedAction};
 use crate::sinumerik::exchange::state::Claim;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::auxiliary::Output;
-use crate::sinumerik::program::executable::Executable;
+use crate::sinumerik::program::executable::{Behind, Executable, ReadBlock};
 use crate::sinumerik::program::main_run::MainRun;
 use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::search_state::Search;
@@ -155,24 +155,6 @@ pub(in crate::sinumerik) struct ProgramTest {
     pub axes: AxisSet,
     /// The event behind it.
     pub cause: EventId,
-}
-
-/// The state of preparation behind a block: from there it can read on once more.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Behind {
-    pub interpreter: Interpreter,
-    pub axis_feeds: Vec<(AxisNumber, f64)>,
-    pub path_override: f64,
-    pub programmed_on_path: AxisSet,
-    /// Where the axes of the path are then.
-    pub end: PerPathAxis,
-}
-
-/// A block that was read, with the state behind it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct ReadBlock {
-    pub block: Block,
-    pub behind: Behind,
 }
 
 /// What preparation does next.
