@@ -35,6 +35,7 @@ mod s7;
 mod serve;
 mod signals;
 mod test;
+mod tune_limits;
 mod why;
 mod why_not;
 
@@ -178,6 +179,16 @@ enum Command {
         #[command(flatten)]
         run: why::Run,
     },
+    /// Finds the warning limit and the trip limits of each gantry grouping (MD37110, MD37120, MD37130) from the movements of a scenario.
+    ///
+    /// The manual's procedure (G1 2.7.4): with a large MD37120, MD37110 is raised until the message 10652 no longer appears while the
+    /// axes are under a heavy dynamic load; MD37120 is that value and a safety margin. The scenario references and synchronises the
+    /// grouping and moves it as hard as the machine will. Its differences while the grouping is synchronised count. Then it runs again with
+    /// the proposed limits.
+    ///
+    /// Exit codes: 0 limits are proposed; 1 the scenario failed, or no grouping was synchronised or moved; 2 unusable input: no gantry
+    /// grouping, a scenario that changes one of the limits itself.
+    TuneLimits(tune_limits::Arguments),
     /// Prints the reference point approach and the gantry grouping as a Mermaid flowchart; each transition shows its rule.
     ///
     /// The chart is drawn from the tables that the control runs.
@@ -307,6 +318,7 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::WhyNot { scenario, signal, all, run }) => {
             why_not::why_not(&scenario, &signal, &run, all, programs, &mut output)
         }
+        Some(Command::TuneLimits(arguments)) => tune_limits::tune_limits(&arguments, programs, &mut output),
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
         Some(Command::Nc { command }) => nc::run(&command, &mut output),

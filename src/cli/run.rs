@@ -8,10 +8,11 @@ use clap::Args;
 use super::durations::duration;
 use super::files::Files;
 use super::output::Output;
+use crate::machine::Machine;
 use crate::plc::{PlcProcess, Programs};
 use crate::scenario::{Failure, Finished, Prepared, Scenario};
 use crate::source::{Place, Problem, Replacement};
-use crate::trace::Window;
+use crate::trace::{Curves, Window};
 use crate::units::Time;
 
 /// What runs, and the files to which the trace is written as well.
@@ -42,6 +43,12 @@ pub(super) struct Options {
     /// Writes the trace as a timing diagram of the watched signals; one scenario only.
     #[arg(long, value_name = "F.svg")]
     svg: Option<PathBuf>,
+    /// With --svg: draws these values as curves with one scale, instead of the watched signals.
+    ///
+    /// Names are those of values: `X.following_error`, `XF.synchronism_difference`, `R5`, and patterns such as `*.velocity`. Values in
+    /// other units have a scale of their own. The values need not be watched.
+    #[arg(long, value_name = "VALUE", value_delimiter = ',', requires = "svg")]
+    curves: Vec<String>,
     /// With --svg or --vcd: shows only what happens from this time on, in seconds or with a unit.
     #[arg(long, value_name = "TIME", value_parser = time)]
     from: Option<Time>,
@@ -51,7 +58,7 @@ pub(super) struct Options {
 }
 
 /// Formats a finished run as the text of a file.
-type Form = fn(&Finished) -> String;
+type Form = fn(&Finished, Option<&Curves>) -> String;
 
 /// An open file and the format of its text.
 struct Waiting {
@@ -76,6 +83,16 @@ impl Options {
         }
     }
 
+    /// The values for curves on a machine, without values yet.
+    fn curves(&self, machine: &Machine) -> Result<Option<Curves>, Problem> {
+        if self.curves.is_empty() {
+            return Ok(None);
+        }
+        let entries: Vec<&str> = self.curves.iter().map(String::as_str).collect();
+        let curves = Curves::parse(&entries, machine.names(), machine.memory(), machine.variables());
+        curves.map(Some).map_err(|(_, problem)| problem.at(&Place::file("--curves")))
+    }
+
     /// The PLC program in another process; it runs in the folder of the user.
     fn process(&self) -> Option<PlcProcess> {
         self.plc_process.clone().map(|command| PlcProcess {
@@ -89,9 +106,9 @@ impl Options {
     /// Opens all files before anything runs.
     fn open(&self, runs: usize, inputs: Vec<PathBuf>) -> Result<Vec<Waiting>, Problem> {
         let wanted: [(&'static str, &Option<PathBuf>, Form); 3] = [
-            ("--trace", &self.trace, Finished::json_lines),
-            ("--vcd", &self.vcd, Finished::vcd),
-            ("--svg", &self.svg, Finished::svg),
+            ("--trace", &self.trace, |finished, _| finished.json_lines()),
+            ("--vcd", &self.vcd, |finished, _| finished.vcd()),
+            ("--svg", &self.svg, picture),
         ];
         let mut files = Files::of(inputs);
         let mut waiting = Vec::new();
@@ -127,8 +144,11 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
     if !usable {
         return 2;
     }
-    let opened = options.window().and_then(|window| Ok((window, options.open(ready.len(), inputs)?)));
-    let (window, mut waiting) = match opened {
+    let opened = options.window().and_then(|window| {
+        let curves = ready.first().map(|prepared| options.curves(prepared.machine())).transpose()?.flatten();
+        Ok((window, curves, options.open(ready.len(), inputs)?))
+    });
+    let (window, mut curves, mut waiting) = match opened {
         Ok(opened) => opened,
         Err(problem) => {
             output.error(problem);
@@ -144,7 +164,11 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
             output.warning(warning);
         }
         let prepared = if options.margins { prepared.measure_margins() } else { prepared };
-        let mut finished = prepared.run();
+        let mut finished = prepared.run_with(None, &mut |machine| {
+            if let Some(curves) = &mut curves {
+                curves.look(machine.cycle(), machine.variables());
+            }
+        });
         finished.window = window;
         output.print(&finished.text());
         code = code.max(result(&finished, output));
@@ -156,13 +180,21 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
             output.warning(format!("the trace ends at {end} s, before --from {from} s: the picture shows no change"));
         }
         for Waiting { mut file, text } in waiting.drain(..) {
-            if let Err(problem) = file.write(&text(&finished)).and_then(|()| file.finish()) {
+            if let Err(problem) = file.write(&text(&finished, curves.as_ref())).and_then(|()| file.finish()) {
                 output.error(problem);
                 code = 2;
             }
         }
     }
     code
+}
+
+/// The timing diagram of the watched signals, or the curves that were asked for.
+fn picture(finished: &Finished, curves: Option<&Curves>) -> String {
+    let Some(curves) = curves else {
+        return finished.svg();
+    };
+    finished.plot(curves, &curves.by_unit(finished.session().machine()))
 }
 
 /// All cases of one scenario under each of its profiles; with `wanted`, the cases whose values contain this text.

@@ -5,13 +5,14 @@ use std::path::Path;
 use clap::Args;
 
 use super::output::Output;
+use crate::image::Profile;
 use crate::plc::Programs;
 use crate::scenario::{Failure, Finished, Prepared, Scenario, profile_named};
 use crate::source::{Place, Problem, TRACE_MIB, decode, read_bytes};
 use crate::trace::Story;
 use crate::units::Time;
 
-/// Which run of a scenario is explained: one case under one profile.
+/// Which run of a scenario is used: one case under one profile.
 #[derive(Clone, Debug, Args)]
 pub(super) struct Run {
     /// Of a scenario with a matrix: the case whose values contain this text, as `plc = a`.
@@ -23,13 +24,19 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// The case of a scenario under the profile, ready to run.
-    fn prepare(&self, scenario: &Path, programs: &Programs) -> Result<Prepared, Problem> {
+    /// The case of a scenario, and the profile.
+    pub(super) fn read(&self, scenario: &Path) -> Result<(Scenario, Profile), Problem> {
         let scenario = Scenario::read_case(scenario, self.case.as_deref())?;
         let profile = match &self.profile {
             Some(name) => profile_named(name)?,
             None => scenario.profiles.first().copied().unwrap_or_default(),
         };
+        Ok((scenario, profile))
+    }
+
+    /// The case of a scenario under the profile, ready to run.
+    fn prepare(&self, scenario: &Path, programs: &Programs) -> Result<Prepared, Problem> {
+        let (scenario, profile) = self.read(scenario)?;
         scenario.prepare(profile, programs)
     }
 

@@ -190,6 +190,7 @@ const ALARMS: &[(u32, Class, Third, &str)] = &[
     (14011, CB, TXT, "program does not exist"),
     (14012, IP, NO, "too many program levels"),
     (14013, CB, NO, "number of passes is not positive"),
+    (14016, CB, NO, "several M functions of a block are replaced by subprograms"),
     (14020, CB, NO, "wrong value or number of parameters"),
     (14025, IP, NO, "wrong ID of a synchronised action"),
     (14048, IP, NO, "wrong number of turns of a circle"),

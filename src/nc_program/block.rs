@@ -11,6 +11,7 @@ use super::syntax::{
 };
 use super::token::{Kind, Symbol, tokens};
 use super::value::{Type, Value};
+use super::vocabulary::is_keyword;
 use super::words::Item;
 
 /// Reads a block.
@@ -135,14 +136,14 @@ impl Parser<'_> {
             || self.is_symbol(1, Symbol::Open)
             || matches!(self.kind(1), Some(Kind::Numbered(numbered)) if numbered.letter == 'P')
             || matches!(self.kind(1), Some(Kind::Name(name)) if name == "P");
-        let is_reserved = matches!(name, "ID" | "IDS" | "WHEN" | "WHENEVER" | "EVERY" | "FROM" | "DO");
+        let is_reserved = matches!(name, "ID" | "IDS") || is_keyword(name);
         is_call
             && is_alone
             && !is_reserved
             && name.len() > 1
             && self.dialect.function(name).is_none()
             && self.dialect.refused(name).is_none()
-            && super::syntax::Command::find(name).is_none()
+            && super::vocabulary::Command::find(name).is_none()
             && self.axes.find(name).is_none()
     }
 
@@ -285,6 +286,7 @@ impl Parser<'_> {
             Some("BOOL") => Type::Bool,
             Some("CHAR") => Type::Char,
             Some("AXIS") => Type::Axis,
+            Some("FRAME") => Type::Frame,
             Some("STRING") => {
                 self.at += 1;
                 let length = match self.indices()?.as_slice() {
@@ -297,7 +299,6 @@ impl Parser<'_> {
                 };
                 return Ok(Some(Type::Text(length)));
             }
-            Some("FRAME") => return Err(Fault::refused(at, "a variable of type FRAME")),
             _ => return Ok(None),
         };
         self.at += 1;
@@ -325,6 +326,9 @@ impl Parser<'_> {
         let Some(name) = self.name() else {
             return Err(self.syntax("a name is missing; its first two characters are letters or `_`"));
         };
+        if is_keyword(name) {
+            return Err(self.syntax("a word of the language is no name"));
+        }
         if name.len() < 2 || name.bytes().take(2).any(|byte| byte.is_ascii_digit()) {
             return Err(self.syntax("the first two characters of a name are letters or `_`"));
         }
@@ -340,16 +344,16 @@ impl Parser<'_> {
             let is_list = self.name() == Some("SET") || !dimensions.is_empty() && self.is_symbol(0, Symbol::Open);
             if self.name() == Some("REP") && self.is_symbol(1, Symbol::Open) {
                 self.at += 2;
-                initial = Initial::All(self.expression()?);
+                let value = self.expression()?;
+                let count = if self.take_symbol(Symbol::Comma) { Some(self.expression()?) } else { None };
+                initial = Initial::All(value, count);
                 self.need(Symbol::Close, "`)`")?;
             } else if is_list {
                 self.take_name("SET");
                 let list = self.arguments()?.ok_or_else(|| self.syntax("`(` is missing"))?;
-                let missing = || self.syntax("an initial value is missing");
-                let values: Option<Vec<Expression>> = list.into_iter().collect();
-                initial = Initial::Values(values.ok_or_else(missing)?);
+                initial = Initial::Values(list);
             } else {
-                initial = Initial::Values(vec![self.expression()?]);
+                initial = Initial::Values(vec![Some(self.expression()?)]);
             }
         }
         Ok(Declaration { name, dimensions, initial, at })

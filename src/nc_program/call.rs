@@ -9,6 +9,7 @@ use super::evaluate::evaluate;
 use super::expression::Expression;
 use super::head::word;
 use super::interpreter::{Stopped, Work, first_statement};
+use super::prepared::{AuxiliaryFunction, AuxiliaryKind};
 use super::scope::{Place, Running};
 use super::source::{Program, Request, normalised, requested};
 use super::state::{Interpreter, Level, Saved};
@@ -67,6 +68,44 @@ impl Interpreter {
         level.is_display_off |= caller.is_some_and(|caller| caller.is_display_off);
         self.levels.push(level);
         Ok(())
+    }
+
+    /// The subprogram that replaces an M function of a block (MD10715), as a level that begins behind the block. The function is not output.
+    /// Inside such a subprogram M functions are what they are.
+    pub(super) fn replacement(
+        &self,
+        auxiliary: &mut Vec<AuxiliaryFunction>,
+        at: Span,
+        work: &Work<'_>,
+        environment: &dyn Environment,
+    ) -> Result<Option<Level>, Stopped> {
+        if self.levels.iter().any(|level| level.replaces_function) {
+            return Ok(None);
+        }
+        let mut found: Option<String> = None;
+        let mut is_double = false;
+        auxiliary.retain(|function| {
+            let is_m = function.kind == AuxiliaryKind::M && function.extension.unwrap_or(0) == 0;
+            let Some(name) = is_m.then(|| environment.replacing_program(function.value)).flatten() else { return true };
+            is_double |= found.replace(name).is_some();
+            false
+        });
+        let Some(name) = found else { return Ok(None) };
+        if is_double {
+            return Err(Fault::new(14016, at, "a block has one M function that a subprogram replaces").into());
+        }
+        let most = work.dialect.program_levels;
+        if self.levels.len() >= most {
+            return Err(Fault::new(14012, at, format!("at most {most} levels with the main program")).into());
+        }
+        let missing = || Fault::new(14011, at, "MD10716 names a program that does not exist").about(normalised(&name));
+        let program = self::found(&name, work.program, environment).ok_or_else(missing)?;
+        let mut level = Level::new(program.path());
+        level.replaces_function = true;
+        let caller = self.levels.last();
+        level.is_single_block_off = caller.is_some_and(|caller| caller.is_single_block_off);
+        level.is_display_off = caller.is_some_and(|caller| caller.is_display_off);
+        Ok(Some(level))
     }
 
     /// PROC of the level that begins. Parameters of a main program, which nobody calls, have their initial values.
@@ -150,7 +189,7 @@ impl Interpreter {
         let name = parameter.name.as_str();
         let wrong = |reason: String| Fault::new(12330, at, reason).about(name);
         let no_variable = || Fault::new(12320, at, "a VAR parameter needs a variable").about(name);
-        let scope = &mut Running { levels: &self.levels, environment, axes: work.axes };
+        let scope = &mut Running { levels: &self.levels, environment, axes: work.axes, offset: &self.offset };
         if let Expression::Variable { name: given, indices, at } = argument
             && parameter.dimensions > 0
             && indices.is_empty()
@@ -177,7 +216,7 @@ impl Interpreter {
             Place::Element { level, variable, element, kind } => {
                 (Reference::Variable { level, variable, element: Some(element) }, kind)
             }
-            Place::System { .. } => return Err(no_variable()),
+            Place::System { .. } | Place::Offset { .. } | Place::Programmable(_) => return Err(no_variable()),
         };
         if parameter.dimensions > 0 || !is_same(kind, parameter.kind) {
             return Err(wrong(format!("a variable of type {} is needed", parameter.kind.name())));
@@ -197,7 +236,7 @@ impl Interpreter {
         let name = parameter.name.as_str();
         let wrong = || Fault::new(12330, at, "an array of the same type is needed").about(name);
         let Expression::Variable { name: given, indices, .. } = argument else { return Err(wrong()) };
-        let scope = Running { levels: &self.levels, environment, axes: work.axes };
+        let scope = Running { levels: &self.levels, environment, axes: work.axes, offset: &self.offset };
         let (_, _, found) = scope.find(given, at)?;
         let is_array = indices.is_empty() && found.dimensions.len() == parameter.dimensions;
         if !is_array || !is_same(found.kind, parameter.kind) {

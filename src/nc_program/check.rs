@@ -5,6 +5,7 @@
 //! first label, jump, call or control structure: behind it the way is not known.
 
 use super::alarm::{Fault, ProgramAlarm, Span};
+use super::assign::judge;
 use super::block::parse;
 use super::call::{is_same, judged};
 use super::compose::compose;
@@ -23,7 +24,7 @@ use super::prepared::End;
 use super::search::{Bracket, StructureKind, Wanted, bracket, target};
 use super::source::{Library, Program, ProgramKind, Request, requested};
 use super::syntax::{
-    Assignment, Call, Called, Declaration, Direction, Initial, Jump, Procedure, RepeatPart, Statement, Target, Word,
+    Call, Called, Declaration, Direction, Initial, Jump, Procedure, RepeatPart, Statement, Target, Word,
 };
 use super::value::{Type, Value};
 use super::variables::{Variable, index};
@@ -254,7 +255,7 @@ impl Checker<'_> {
                 }
                 Ok(())
             }
-            Statement::Assign(assignments) => assignments.iter().try_for_each(|one| self.assign(one)),
+            Statement::Assign(assignments) => assignments.iter().try_for_each(|one| judge(&mut self.known, one)),
             Statement::Words(words) => self.words(words),
             Statement::Empty
             | Statement::Define { .. }
@@ -300,23 +301,6 @@ impl Checker<'_> {
         Ok(())
     }
 
-    fn assign(&mut self, assignment: &Assignment) -> Result<(), Fault> {
-        let value = evaluate(&assignment.value, &mut self.known)?;
-        let place = evaluate(&assignment.place, &mut self.known)?;
-        if place.certainty == Certainty::Nothing {
-            return Ok(());
-        }
-        // The length of a STRING is not a part of the type of a value.
-        let kind = match &assignment.place {
-            Expression::Variable { name, .. } => {
-                let variable = self.known.variables.iter().find(|variable| variable.name == *name);
-                variable.map_or_else(|| place.value.of_type(), |variable| variable.kind)
-            }
-            _ => place.value.of_type(),
-        };
-        value.convert(kind, assignment.at).map(|_| ())
-    }
-
     fn define(&mut self, kind: Type, declaration: &Declaration) -> Result<(), Fault> {
         let at = declaration.at;
         let is_known = self.known.variables.iter().any(|variable| variable.name == declaration.name);
@@ -333,13 +317,13 @@ impl Checker<'_> {
         self.known.variables.push(variable);
         let values = match &declaration.initial {
             Initial::None => return Ok(()),
-            Initial::All(value) => std::slice::from_ref(value),
-            Initial::Values(values) => values.as_slice(),
+            Initial::All(value, _) => return self.term_as(value, kind, at),
+            Initial::Values(values) => values,
         };
         if values.len() > count as usize {
             return Err(Fault::new(12260, at, format!("{} values, the variable has {count}", values.len())));
         }
-        values.iter().try_for_each(|value| self.term_as(value, kind, at))
+        values.iter().flatten().try_for_each(|value| self.term_as(value, kind, at))
     }
 
     fn procedure(&mut self, procedure: &Procedure) -> Result<(), Fault> {

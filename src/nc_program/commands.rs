@@ -9,8 +9,9 @@ use super::expression::Expression;
 use super::names::AxisIndex;
 use super::operator::Operator;
 use super::prepared::{Action, AuxiliaryKind, CouplingKind, MainRunAction, SynchronisedAction};
-use super::syntax::{Address, AddressWord, Command, Synchronised, SynchronisedWord};
+use super::syntax::{Address, AddressWord, Synchronised, SynchronisedWord};
 use super::value::Value;
+use super::vocabulary::Command;
 
 type Arguments<'a> = &'a [Option<Expression>];
 

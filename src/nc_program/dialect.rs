@@ -51,7 +51,7 @@ pub static SINUMERIK: Dialect = Dialect {
 fn sinumerik_rank(operator: Operator) -> u8 {
     match operator {
         Operator::Multiply | Operator::Divide | Operator::WholeDivide | Operator::Modulo => 2,
-        Operator::Add | Operator::Subtract => 3,
+        Operator::Add | Operator::Subtract | Operator::Chain => 3,
         Operator::BitAnd => 4,
         Operator::BitXor => 5,
         Operator::BitOr => 6,
@@ -121,7 +121,6 @@ const REFUSED: &[(&str, &str)] = &[
     ("CT", SPLINES),
     ("CTABDEF", COUPLINGS),
     ("CTABEND", COUPLINGS),
-    ("CTRANS", FRAMES),
     ("DELETE", FILES),
     ("DISABLE", INTERRUPTS),
     ("DRIVE", OTHERS),

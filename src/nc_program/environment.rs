@@ -117,6 +117,11 @@ pub trait Environment {
     /// Whether GOTOS jumps (DB21.DBX384.0).
     fn is_restarting(&self) -> bool;
 
+    /// The program that is called instead of an M function (MD10715, MD10716).
+    fn replacing_program(&self, _m: f64) -> Option<String> {
+        None
+    }
+
     /// The program that a call means.
     fn find_program(&self, request: &Request<'_>) -> Option<Arc<Program>>;
 

@@ -39,6 +39,7 @@ impl Term {
             Type::Char => Value::Char(b'1'),
             Type::Text(_) => Value::Text("1".to_owned()),
             Type::Axis => Value::Axis(super::names::AxisIndex(0)),
+            Type::Frame => Value::Frame(Vec::new()),
         };
         Self { value, certainty: Certainty::Type }
     }
@@ -82,7 +83,7 @@ pub(super) fn evaluate(expression: &Expression, scope: &mut dyn Scope) -> Result
             scope.r_parameter(&index, *at)
         }
         Expression::Variable { name, indices, at } => {
-            let indices = evaluate_all(indices, scope)?;
+            let indices = variable_indices(indices, scope)?;
             scope.variable(name, &indices, *at)
         }
         Expression::System { name, indices, at } => {
@@ -107,6 +108,7 @@ pub(super) fn evaluate(expression: &Expression, scope: &mut dyn Scope) -> Result
             let values: Vec<_> = terms.iter().map(|term| term.value.clone()).collect();
             settled(&terms.iter().collect::<Vec<_>>(), apply(*function, &values, *at))
         }
+        Expression::List { at, .. } => Err(Fault::new(12080, *at, "SET and REP only assign values to an array")),
     }
 }
 
@@ -115,15 +117,33 @@ pub(super) fn evaluate_all(expressions: &[Expression], scope: &mut dyn Scope) ->
     expressions.iter().map(|one| evaluate(one, scope)).collect()
 }
 
+/// The indices of a variable. Behind an axis, the part of a frame is a name: `FRAME1[X,TR]`.
+pub(super) fn variable_indices(indices: &[Expression], scope: &mut dyn Scope) -> Result<Vec<Term>, Fault> {
+    if let [before @ .., last] = indices
+        && let Some(part) = part(last)
+    {
+        let mut found = evaluate_all(before, scope)?;
+        if matches!(found.last(), Some(Term { value: Value::Axis(_), .. })) {
+            found.push(part);
+            return Ok(found);
+        }
+    }
+    evaluate_all(indices, scope)
+}
+
 /// The indices of a system variable. Parts of frames (`TR`, `FI`) are names.
 pub(super) fn system_indices(indices: &[Expression], scope: &mut dyn Scope) -> Result<Vec<Term>, Fault> {
-    let part = |one: &Expression| match one {
+    indices.iter().map(|one| part(one).map_or_else(|| evaluate(one, scope), Ok)).collect()
+}
+
+/// The part of a frame that an index names.
+fn part(index: &Expression) -> Option<Term> {
+    match index {
         Expression::Variable { name, indices, .. } if indices.is_empty() && FRAME_PARTS.contains(&name.as_str()) => {
             Some(Term::known(Value::Text(name.clone())))
         }
         _ => None,
-    };
-    indices.iter().map(|one| part(one).map_or_else(|| evaluate(one, scope), Ok)).collect()
+    }
 }
 
 /// Parts of frames in an index: offset, fine offset, rotation, scale, mirror.
@@ -149,6 +169,8 @@ fn joined(value: &Value, axes: &AxisNames) -> Value {
         Value::Char(code) => char::from(*code).to_string(),
         Value::Text(text) => text.clone(),
         Value::Axis(axis) => axes.name(*axis).to_owned(),
+        // No text: the operator refuses it.
+        Value::Frame(_) => return value.clone(),
     })
 }
 
@@ -176,6 +198,9 @@ pub(super) fn frozen(expression: &Expression, scope: &mut dyn Scope) -> Result<E
             let arguments = arguments.iter().map(|one| frozen(one, scope)).collect::<Result<_, _>>()?;
             Expression::Function { function: *function, arguments, at: *at }
         }
-        Expression::Constant(_) | Expression::RParameter { .. } | Expression::Variable { .. } => expression.clone(),
+        Expression::Constant(_)
+        | Expression::RParameter { .. }
+        | Expression::Variable { .. }
+        | Expression::List { .. } => expression.clone(),
     })
 }

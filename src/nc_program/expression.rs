@@ -7,8 +7,10 @@ use super::dialect::Dialect;
 use super::function::Function;
 use super::names::AxisNames;
 use super::operator::{Operator, Prefix};
+
 use super::token::{Kind, Symbol, Token};
 use super::value::Value;
+use super::vocabulary::{Command, is_keyword};
 
 /// An expression.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,6 +49,12 @@ pub(super) enum Expression {
         arguments: Vec<Self>,
         at: Span,
     },
+    /// `SET(1,,3)`, `REP(0)`, `REP(0,5)`: values for an array, only to be assigned.
+    List {
+        is_repeated: bool,
+        values: Vec<Option<Self>>,
+        at: Span,
+    },
 }
 
 impl Expression {
@@ -62,6 +70,7 @@ impl Expression {
                 Self::Prefixed { operand, .. } => operand.any(test),
                 Self::Binary { left, right, .. } => left.any(test) || right.any(test),
                 Self::Function { arguments, .. } => arguments.iter().any(|one| one.any(test)),
+                Self::List { values, .. } => values.iter().flatten().any(|one| one.any(test)),
             }
     }
 }
@@ -195,13 +204,13 @@ impl<'a> Parser<'a> {
                 Symbol::Minus => Operator::Subtract,
                 Symbol::Times => Operator::Multiply,
                 Symbol::Divide => Operator::Divide,
+                Symbol::Colon => Operator::Chain,
                 Symbol::Assign
                 | Symbol::Open
                 | Symbol::Close
                 | Symbol::OpenIndex
                 | Symbol::CloseIndex
-                | Symbol::Comma
-                | Symbol::Colon => return None,
+                | Symbol::Comma => return None,
             },
             Kind::Name(name) => match name.as_str() {
                 "DIV" => Operator::WholeDivide,
@@ -263,6 +272,9 @@ impl<'a> Parser<'a> {
                 let name = numbered.name();
                 match self.axes.find(&name) {
                     Some(axis) => Ok(Expression::Constant(Value::Axis(axis))),
+                    None if numbered.letter == 'G' => {
+                        Err(Fault::new(12080, at, "a value is missing: this is a G function"))
+                    }
                     None => Err(Fault::new(12550, at, "neither an axis nor a variable has this name").about(name)),
                 }
             }
@@ -306,6 +318,10 @@ impl<'a> Parser<'a> {
         }
         if let Some(axis) = self.axes.find(name) {
             return Ok(Expression::Constant(Value::Axis(axis)));
+        }
+        let is_word = is_keyword(name) || self.dialect.function(name).is_some() || Command::find(name).is_some();
+        if is_word {
+            return Err(Fault::new(12080, at, "a value is missing: this is a word of the language"));
         }
         let indices = self.indices()?;
         Ok(Expression::Variable { name: name.to_owned(), indices, at })

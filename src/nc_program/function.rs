@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::alarm::{Fault, Span};
+use super::frames::ctrans;
 use super::operator::real;
 use super::trigonometry as angle;
 use super::value::{Type, Value, integer, round};
@@ -32,7 +33,7 @@ pub(super) enum Function {
     Trunc,
     /// Rounds, one half upwards.
     Round,
-    /// Rounds away from zero.
+    /// Rounds to the next higher whole number.
     RoundUp,
     /// Natural logarithm.
     Ln,
@@ -56,8 +57,16 @@ pub(super) enum Function {
     ToLower,
     /// The place of a character in a text, from zero; −1 without it.
     Index,
+    /// The last place of a character.
+    RIndex,
+    /// The first place of one of several characters.
+    MIndex,
+    /// The place of a text in a text.
+    Match,
     /// A part of a text (text, first character from zero, number of characters).
     SubStr,
+    /// The frame with these offsets (axis, offset, …).
+    Ctrans,
 }
 
 /// Names, with the least and the largest number of parameters.
@@ -85,7 +94,11 @@ pub(super) const FUNCTIONS: &[(&str, Function, usize, usize)] = &[
     ("TOUPPER", Function::ToUpper, 1, 1),
     ("TOLOWER", Function::ToLower, 1, 1),
     ("INDEX", Function::Index, 2, 2),
+    ("RINDEX", Function::RIndex, 2, 2),
+    ("MINDEX", Function::MIndex, 2, 2),
+    ("MATCH", Function::Match, 2, 2),
     ("SUBSTR", Function::SubStr, 2, 3),
+    ("CTRANS", Function::Ctrans, 0, 62),
 ];
 
 impl Function {
@@ -139,10 +152,7 @@ pub(super) fn apply(function: Function, values: &[Value], at: Span) -> Result<Va
         Function::Pot => real(number(0)? * number(0)?, at),
         Function::Trunc => whole(number(0)?.trunc(), at),
         Function::Round => whole(round(number(0)?), at),
-        Function::RoundUp => {
-            let found = number(0)?;
-            whole(if found < 0.0 { found.floor() } else { found.ceil() }, at)
-        }
+        Function::RoundUp => whole(number(0)?.ceil(), at),
         Function::Ln => match number(0)? {
             positive if positive > 0.0 => real(angle::ln(positive), at),
             _ => Err(domain("the logarithm of a number that is not positive")),
@@ -162,17 +172,23 @@ pub(super) fn apply(function: Function, values: &[Value], at: Span) -> Result<Va
         Function::StrLen => whole_of(text(0)?.chars().count(), at),
         Function::ToUpper => Ok(Value::Text(text(0)?.to_uppercase())),
         Function::ToLower => Ok(Value::Text(text(0)?.to_lowercase())),
-        Function::Index => {
-            let wanted = match values.get(1) {
-                Some(Value::Char(code)) => char::from(*code),
-                Some(Value::Text(text)) if text.chars().count() == 1 => text.chars().next().unwrap_or_default(),
-                Some(other) => return Err(unfit(other)),
-                None => return Err(missing()),
+        Function::Index | Function::RIndex | Function::MIndex | Function::Match => {
+            let (within, wanted) =
+                (text(0)?, part(values.get(1).ok_or_else(missing)?).ok_or_else(|| unfit(&values[1]))?);
+            let is_one = wanted.chars().count() == 1;
+            let has = |letter: &char| wanted.contains(*letter);
+            let place = match function {
+                Function::MIndex => within.chars().position(|letter| has(&letter)),
+                Function::Match => within.find(&wanted).map(|byte| within[..byte].chars().count()),
+                _ if !is_one => return Err(unfit(&values[1])),
+                Function::RIndex => within
+                    .chars()
+                    .rev()
+                    .position(|letter| has(&letter))
+                    .map(|behind| within.chars().count() - 1 - behind),
+                _ => within.chars().position(|letter| has(&letter)),
             };
-            match text(0)?.chars().position(|letter| letter == wanted) {
-                Some(place) => whole_of(place, at),
-                None => Ok(Value::Int(-1)),
-            }
+            place.map_or(Ok(Value::Int(-1)), |place| whole_of(place, at))
         }
         Function::SubStr => {
             let place = |index: usize| -> Result<usize, Fault> {
@@ -183,6 +199,16 @@ pub(super) fn apply(function: Function, values: &[Value], at: Span) -> Result<Va
             let length = if values.len() > 2 { place(2)? } else { usize::MAX };
             Ok(Value::Text(letters.take(length).collect()))
         }
+        Function::Ctrans => ctrans(values, at),
+    }
+}
+
+/// A character or a text.
+fn part(value: &Value) -> Option<String> {
+    match value {
+        Value::Char(code) => Some(char::from(*code).to_string()),
+        Value::Text(text) => Some(text.clone()),
+        _ => None,
     }
 }
 

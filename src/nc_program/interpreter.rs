@@ -16,12 +16,13 @@ use super::head::Head;
 use super::macros::{define, expanded, is_definition};
 use super::names::AxisNames;
 use super::prepared::{Block, End, Origin, Prepared};
-use super::scope::{Place, Running, write};
+use super::scope::{Running, write};
 use super::source::Program;
 use super::state::{Interpreter, Level};
-use super::syntax::{Assignment, Command, Declaration, Initial, SourceBlock, Statement, Word};
+use super::syntax::{Declaration, Initial, SourceBlock, Statement, Word};
 use super::value::{Type, Value};
 use super::variables::{Content, Variable, index};
+use super::vocabulary::Command;
 use super::waiting::waits;
 
 /// Calculation blocks in one call, so that an endless loop does not hold the channel.
@@ -236,7 +237,7 @@ impl Interpreter {
         work: &Work<'_>,
         environment: &dyn Environment,
     ) -> Result<Value, Fault> {
-        let mut scope = Running { levels: &self.levels, environment, axes: work.axes };
+        let mut scope = Running { levels: &self.levels, environment, axes: work.axes, offset: &self.offset };
         evaluate(expression, &mut scope).map(|term| term.value)
     }
 
@@ -268,8 +269,10 @@ impl Interpreter {
             is_main: self.levels.len() < 2,
             needs_feed: true,
         };
-        let mut scope = Running { levels: &self.levels, environment, axes: work.axes };
-        let done = compose(words, before, &mut scope)?;
+        let mut scope = Running { levels: &self.levels, environment, axes: work.axes, offset: &self.offset };
+        let mut done = compose(words, before, &mut scope)?;
+        let at = words.first().map_or_else(Span::default, Word::at);
+        let replacement = self.replacement(&mut done.auxiliary, at, work, environment)?;
         (self.modal, self.feed) = (done.modal, done.feed);
         self.offset.clone_from(&done.offset);
         self.is_stopped = done.stops_preparation;
@@ -281,7 +284,7 @@ impl Interpreter {
         match done.end {
             Some(End::Program) => self.levels.clear(),
             Some(End::Subprogram) => self.return_to_caller(),
-            None => {}
+            None => self.levels.extend(replacement),
         }
         let is_calculation = matches!(
             words,
@@ -310,45 +313,6 @@ impl Interpreter {
         Ok(Prepared::Block(Box::new(block)))
     }
 
-    /// Assignments of a block: all of them, or none.
-    fn assign(
-        &mut self,
-        assignments: &[Assignment],
-        work: &Work<'_>,
-        environment: &mut dyn Environment,
-    ) -> Result<(), Fault> {
-        let mut undone: Vec<(Place, Value, Span)> = Vec::new();
-        for assignment in assignments {
-            let written = self.assign_one(assignment, work, environment);
-            match written {
-                Ok(before) => undone.extend(before.map(|(place, value)| (place, value, assignment.at))),
-                Err(fault) => {
-                    for (place, value, at) in undone.into_iter().rev() {
-                        // It had this value, so it can have it again.
-                        let _ = write(&place, value, &mut self.levels, environment, at);
-                    }
-                    return Err(fault);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Returns the place with its value before, if it can be read.
-    fn assign_one(
-        &mut self,
-        assignment: &Assignment,
-        work: &Work<'_>,
-        environment: &mut dyn Environment,
-    ) -> Result<Option<(Place, Value)>, Fault> {
-        let mut scope = Running { levels: &self.levels, environment, axes: work.axes };
-        let place = scope.place(&assignment.place)?;
-        let value = evaluate(&assignment.value, &mut scope)?.value;
-        let before = scope.read(&place, assignment.at).ok();
-        write(&place, value, &mut self.levels, environment, assignment.at)?;
-        Ok(before.map(|before| (place, before)))
-    }
-
     /// Writes a place of the innermost level.
     pub(super) fn write(
         &mut self,
@@ -358,8 +322,9 @@ impl Interpreter {
         work: &Work<'_>,
         environment: &mut dyn Environment,
     ) -> Result<(), Fault> {
-        let place = Running { levels: &self.levels, environment, axes: work.axes }.place(place)?;
-        write(&place, value, &mut self.levels, environment, at)
+        let place =
+            Running { levels: &self.levels, environment, axes: work.axes, offset: &self.offset }.place(place)?;
+        write(&place, value, (&mut self.levels, &mut self.offset), environment, at)
     }
 
     /// DEF: all variables of the block, or none.
@@ -409,16 +374,26 @@ impl Interpreter {
         let Content::Values(values) = &mut variable.content else { return Ok(variable) };
         match &declaration.initial {
             Initial::None => {}
-            Initial::All(value) => {
+            Initial::All(value, count) => {
                 let value = self.value_as(value, kind, at, work, environment)?;
-                values.fill(value);
+                let room = values.len();
+                let count = match count {
+                    Some(count) => usize::try_from(index(&self.value(count, work, environment)?, at)?).unwrap_or(0),
+                    None => room,
+                };
+                if count > room {
+                    return Err(Fault::new(12260, at, format!("{count} values, the variable has {room}")));
+                }
+                values[..count].fill(value);
             }
             Initial::Values(list) => {
                 if list.len() > values.len() {
                     let reason = format!("{} values, the variable has {}", list.len(), values.len());
                     return Err(Fault::new(12260, at, reason));
                 }
-                for (place, value) in values.iter_mut().zip(list) {
+                for (place, value) in
+                    values.iter_mut().zip(list).filter_map(|(place, value)| Some((place, value.as_ref()?)))
+                {
                     *place = self.value_as(value, kind, at, work, environment)?;
                 }
             }

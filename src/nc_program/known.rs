@@ -2,6 +2,7 @@
 
 use super::alarm::{Fault, Span};
 use super::evaluate::{Certainty, Scope, Term};
+use super::frames::component;
 use super::names::AxisNames;
 use super::value::Type;
 use super::variables::{Variable, element, index};
@@ -33,6 +34,10 @@ impl Scope for Known<'_> {
             }
             return Err(Fault::new(12550, at, "neither a variable nor an axis has this name").about(name));
         };
+        let values: Vec<_> = indices.iter().map(|term| term.value.clone()).collect();
+        let axis = component(variable, &values, at)?;
+        let indices = if axis.is_some() { &indices[..variable.dimensions.len()] } else { indices };
+        let kind = if axis.is_some() { Type::Real } else { variable.kind };
         let mut found = Vec::new();
         for term in indices {
             found.push(if term.certainty == Certainty::Nothing { 0 } else { index(&term.value, at)? });
@@ -40,7 +45,7 @@ impl Scope for Known<'_> {
         let is_known = indices.iter().all(Term::is_known);
         match element(&variable.dimensions, &found, at) {
             Err(fault) if fault.number == 12400 || is_known => Err(fault),
-            Ok(_) | Err(_) => Ok(Term::of_type(variable.kind)),
+            Ok(_) | Err(_) => Ok(Term::of_type(kind)),
         }
     }
 

@@ -36,6 +36,7 @@
 
 mod addresses;
 mod alarm;
+mod assign;
 mod block;
 mod call;
 mod check;
@@ -48,6 +49,7 @@ mod environment;
 mod evaluate;
 mod expression;
 mod flow;
+mod frames;
 mod function;
 mod functions;
 mod head;
@@ -66,6 +68,7 @@ mod token;
 mod trigonometry;
 mod value;
 mod variables;
+mod vocabulary;
 mod waiting;
 mod words;
 

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::alarm::{Fault, Span};
+use super::frames::chained;
 use super::value::Value;
 
 /// An operator between two values.
@@ -35,6 +36,8 @@ pub enum Operator {
     Xor,
     /// OR
     Or,
+    /// `:` of frames
+    Chain,
     /// `<<`
     Join,
     /// `==`
@@ -69,6 +72,7 @@ impl Operator {
             | Self::And
             | Self::Xor
             | Self::Or
+            | Self::Chain
             | Self::Join => false,
         }
     }
@@ -153,6 +157,10 @@ pub(super) fn binary(operator: Operator, left: &Value, right: &Value, at: Span) 
                 _ => left || right,
             }))
         }
+        Operator::Chain => match (left, right) {
+            (Value::Frame(left), Value::Frame(right)) => Ok(Value::Frame(chained(left, right))),
+            _ => Err(unfit()),
+        },
         Operator::Join => match (left, right) {
             (Value::Text(left), Value::Text(right)) if left.len() + right.len() <= LONGEST_TEXT => {
                 Ok(Value::Text(format!("{left}{right}")))

@@ -3,9 +3,10 @@
 use super::alarm::{Fault, Span};
 use super::condition::{r_index, read_system, refused};
 use super::environment::{Environment, SystemVariable};
-use super::evaluate::{Scope, Term, evaluate, evaluate_all, system_indices};
+use super::evaluate::{Scope, Term, evaluate, system_indices, variable_indices};
 use super::expression::Expression;
-use super::names::AxisNames;
+use super::frames::{component, offset_of, programmable, set_offset};
+use super::names::{AxisIndex, AxisNames};
 use super::state::Level;
 use super::value::{Type, Value};
 use super::variables::{Content, Reference, Variable, element, index};
@@ -15,14 +16,33 @@ pub(super) struct Running<'a> {
     pub(super) levels: &'a [Level],
     pub(super) environment: &'a dyn Environment,
     pub(super) axes: &'a AxisNames,
+    /// The programmable offset.
+    pub(super) offset: &'a [(AxisIndex, f64)],
 }
 
 /// A place that can be written, with its indices.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Place {
     RParameter(u32),
-    Element { level: usize, variable: usize, element: usize, kind: Type },
-    System { name: String, indices: Vec<Value> },
+    Element {
+        level: usize,
+        variable: usize,
+        element: usize,
+        kind: Type,
+    },
+    /// `FRAME1[X,TR]`: the offset of an axis in a variable of type FRAME.
+    Offset {
+        level: usize,
+        variable: usize,
+        element: usize,
+        axis: AxisIndex,
+    },
+    /// `$P_PFRAME`, `$P_PFRAME[X,TR]`: the programmable offset, or that of one axis.
+    Programmable(Option<AxisIndex>),
+    System {
+        name: String,
+        indices: Vec<Value>,
+    },
 }
 
 impl Scope for Running<'_> {
@@ -61,6 +81,10 @@ impl Running<'_> {
                 let file = level.program.rsplit('/').next().unwrap_or_default();
                 Ok(Some(Value::Text(format!("_N_{}", file.replace('.', "_")))))
             }
+            ("$P_PFRAME", _) => {
+                let place = Place::Programmable(programmable(indices, at)?);
+                self.read(&place, at).map(Some)
+            }
             _ => Ok(None),
         }
     }
@@ -76,10 +100,13 @@ impl Running<'_> {
 
     fn element_of(&self, name: &str, indices: &[Term], at: Span) -> Result<Place, Fault> {
         let (level, variable, found) = self.find(name, at)?;
-        let indices: Vec<i32> = indices.iter().map(|term| index(&term.value, at)).collect::<Result<_, _>>()?;
+        let values: Vec<_> = indices.iter().map(|term| term.value.clone()).collect();
+        let axis = component(found, &values, at)?;
+        let values = if axis.is_some() { &values[..found.dimensions.len()] } else { &values[..] };
+        let indices: Vec<i32> = values.iter().map(|value| index(value, at)).collect::<Result<_, _>>()?;
         let element = element(&found.dimensions, &indices, at)?;
         let kind = found.kind;
-        Ok(match &found.content {
+        let place = match &found.content {
             Content::Values(_) => Place::Element { level, variable, element, kind },
             Content::Reference(Reference::RParameter(index)) => Place::RParameter(*index),
             Content::Reference(Reference::Variable { level, variable, element: one }) => {
@@ -89,6 +116,12 @@ impl Running<'_> {
                 let kind = behind.map_or(kind, |behind| behind.kind);
                 Place::Element { level, variable, element: one.unwrap_or(element), kind }
             }
+        };
+        Ok(match (axis, place) {
+            (Some(axis), Place::Element { level, variable, element, .. }) => {
+                Place::Offset { level, variable, element, axis }
+            }
+            (_, place) => place,
         })
     }
 
@@ -100,17 +133,21 @@ impl Running<'_> {
                 r_index(&index.value, self.environment.r_parameters(), *at).map(Place::RParameter)
             }
             Expression::Variable { name, indices, at } => {
-                let indices = evaluate_all(indices, self)?;
+                let indices = variable_indices(indices, self)?;
                 self.element_of(name, &indices, *at)
             }
             Expression::System { name, indices, .. } => {
-                let indices = system_indices(indices, self)?.into_iter().map(|term| term.value).collect();
+                let indices: Vec<_> = system_indices(indices, self)?.into_iter().map(|term| term.value).collect();
+                if name == "$P_PFRAME" {
+                    return programmable(&indices, Span::default()).map(Place::Programmable);
+                }
                 Ok(Place::System { name: name.clone(), indices })
             }
             Expression::Constant(_)
             | Expression::Prefixed { .. }
             | Expression::Binary { .. }
-            | Expression::Function { .. } => Err(Fault::new(12080, Span::default(), "a variable is missing")),
+            | Expression::Function { .. }
+            | Expression::List { .. } => Err(Fault::new(12080, Span::default(), "a variable is missing")),
         }
     }
 
@@ -118,6 +155,14 @@ impl Running<'_> {
     pub(super) fn read(&self, place: &Place, at: Span) -> Result<Value, Fault> {
         match place {
             Place::RParameter(index) => Ok(Value::Real(self.environment.r_parameter(*index))),
+            Place::Programmable(None) => Ok(Value::Frame(self.offset.to_vec())),
+            Place::Programmable(Some(axis)) => Ok(Value::Real(offset_of(self.offset, *axis))),
+            Place::Offset { level, variable, element, axis } => {
+                let (level, variable, element) = (*level, *variable, *element);
+                let frame = self.read(&Place::Element { level, variable, element, kind: Type::Frame }, at)?;
+                let Value::Frame(offsets) = frame else { return Err(Fault::new(12150, at, "no FRAME")) };
+                Ok(Value::Real(offset_of(&offsets, *axis)))
+            }
             Place::Element { level, variable, element, .. } => {
                 let found = self.levels.get(*level).and_then(|level| level.variables.get(*variable));
                 let value = found.and_then(|variable| match &variable.content {
@@ -135,7 +180,7 @@ impl Running<'_> {
 pub(super) fn write(
     place: &Place,
     value: Value,
-    levels: &mut [Level],
+    (levels, offset): (&mut [Level], &mut Vec<(AxisIndex, f64)>),
     environment: &mut dyn Environment,
     at: Span,
 ) -> Result<(), Fault> {
@@ -153,11 +198,30 @@ pub(super) fn write(
                 *place = value;
             }
         }
+        Place::Offset { level, variable, element, axis } => {
+            let Value::Real(number) = value.convert(Type::Real, at)? else { return Ok(()) };
+            let found = levels.get_mut(*level).and_then(|level| level.variables.get_mut(*variable));
+            if let Some(Content::Values(values)) = found.map(|variable| &mut variable.content)
+                && let Some(Value::Frame(offsets)) = values.get_mut(*element)
+            {
+                set_offset(offsets, *axis, number);
+            }
+        }
+        Place::Programmable(None) => {
+            if let Value::Frame(offsets) = value.convert(Type::Frame, at)? {
+                *offset = offsets;
+            }
+        }
+        Place::Programmable(Some(axis)) => {
+            if let Value::Real(number) = value.convert(Type::Real, at)? {
+                set_offset(offset, *axis, number);
+            }
+        }
         Place::System { name, indices } => {
             if name == "$R" {
                 let [index] = indices.as_slice() else { return Err(Fault::new(12400, at, "$R has one index")) };
                 let index = r_index(index, environment.r_parameters(), at)?;
-                return write(&Place::RParameter(index), value, levels, environment, at);
+                return write(&Place::RParameter(index), value, (levels, offset), environment, at);
             }
             let variable = SystemVariable { name, indices };
             environment.set_system(&variable, &value).map_err(|refusal| refused(refusal, name, at))?;

@@ -52,6 +52,8 @@ pub(super) struct Level {
     pub(super) is_display_off: bool,
     /// DEFINE.
     pub(super) macros: Vec<Macro>,
+    /// The subprogram replaces an M function (MD10715).
+    pub(super) replaces_function: bool,
 }
 
 /// An open control structure.
@@ -97,6 +99,7 @@ impl Level {
             is_single_block_off: false,
             is_display_off: false,
             macros: Vec::new(),
+            replaces_function: false,
         }
     }
 

@@ -7,6 +7,7 @@ use super::expression::Expression;
 use super::functions::GFunction;
 use super::names::AxisIndex;
 use super::value::Type;
+use super::vocabulary::Command;
 
 /// A block of a program.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,9 +82,9 @@ pub(super) enum Initial {
     /// 0, FALSE, or an empty text.
     None,
     /// A value, or several of an array; the others keep their initial value.
-    Values(Vec<Expression>),
-    /// REP: all elements.
-    All(Expression),
+    Values(Vec<Option<Expression>>),
+    /// REP: all elements, or the first ones.
+    All(Expression, Option<Expression>),
 }
 
 /// `PROC name(…) SAVE DISPLOF SBLOF`.
@@ -281,100 +282,6 @@ impl Modifier {
             "QU" => Self::Quick,
             _ => return None,
         })
-    }
-}
-
-/// Commands with parameters in parentheses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Command {
-    StopPreparation,
-    Message,
-    CycleAlarm,
-    WaitForPosition,
-    WaitForSpindle,
-    Release,
-    Get,
-    GetDirectly,
-    Preset,
-    TrailOn,
-    TrailOff,
-    LeadOn,
-    LeadOff,
-    CouplingOn,
-    CouplingOff,
-    ElectronicGearOn,
-    ElectronicGearOff,
-    SetMark,
-    ClearMark,
-    WaitMark,
-    WaitMarkConditionally,
-    Initialise,
-    Start,
-    WaitEnd,
-    NewConfiguration,
-    EndOverlays,
-    Cancel,
-    SingleBlockOff,
-    SingleBlockOn,
-    /// RDISABLE, in synchronised actions only.
-    ReadInDisable,
-}
-
-/// Names, and whether the command is alone in its block.
-pub(super) const COMMANDS: &[(&str, Command, bool)] = &[
-    ("STOPRE", Command::StopPreparation, true),
-    ("MSG", Command::Message, true),
-    ("SETAL", Command::CycleAlarm, true),
-    ("WAITP", Command::WaitForPosition, true),
-    ("WAITS", Command::WaitForSpindle, true),
-    ("RELEASE", Command::Release, false),
-    ("GET", Command::Get, true),
-    ("GETD", Command::GetDirectly, true),
-    ("PRESETON", Command::Preset, true),
-    ("TRAILON", Command::TrailOn, false),
-    ("TRAILOF", Command::TrailOff, false),
-    ("LEADON", Command::LeadOn, false),
-    ("LEADOF", Command::LeadOff, false),
-    ("COUPON", Command::CouplingOn, false),
-    ("COUPOF", Command::CouplingOff, false),
-    ("EGON", Command::ElectronicGearOn, false),
-    ("EGOFS", Command::ElectronicGearOff, false),
-    ("SETM", Command::SetMark, false),
-    ("CLEARM", Command::ClearMark, false),
-    ("WAITM", Command::WaitMark, false),
-    ("WAITMC", Command::WaitMarkConditionally, false),
-    ("INIT", Command::Initialise, true),
-    ("START", Command::Start, true),
-    ("WAITE", Command::WaitEnd, true),
-    ("NEWCONF", Command::NewConfiguration, true),
-    ("DRFOF", Command::EndOverlays, true),
-    ("CANCEL", Command::Cancel, true),
-    ("SBLOF", Command::SingleBlockOff, true),
-    ("SBLON", Command::SingleBlockOn, true),
-    ("RDISABLE", Command::ReadInDisable, false),
-];
-
-impl Command {
-    pub(super) fn find(name: &str) -> Option<Self> {
-        COMMANDS.iter().find(|row| row.0 == name).map(|row| row.1)
-    }
-
-    /// Whether everything before it must have been executed.
-    pub(super) fn is_stop(self) -> bool {
-        matches!(
-            self,
-            Self::StopPreparation
-                | Self::Preset
-                | Self::Get
-                | Self::GetDirectly
-                | Self::NewConfiguration
-                | Self::EndOverlays
-        )
-    }
-
-    /// Whether nothing else may stand in the block.
-    pub(super) fn is_alone(self) -> bool {
-        COMMANDS.iter().any(|row| row.1 == self && row.2)
     }
 }
 

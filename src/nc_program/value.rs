@@ -1,6 +1,6 @@
 //! Values of the NC language: their types and conversions (nc_programs.md 1.2).
 //!
-//! REAL to INT rounds, one half upwards. A number is TRUE as BOOL if it is not 0; BOOL is 0 or 1 as a number. STRING and AXIS convert only to
+//! REAL to INT rounds, one half upwards. A number is TRUE as BOOL if it is not 0; BOOL is 0 or 1 as a number. STRING, AXIS and FRAME convert only to
 //! themselves, except a string of one character to CHAR.
 
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,8 @@ pub enum Value {
     Text(String),
     /// AXIS.
     Axis(AxisIndex),
+    /// FRAME: the offset of each axis that has one. Rotation, scale and mirror image do not exist here.
+    Frame(Vec<(AxisIndex, f64)>),
 }
 
 /// A type of variables.
@@ -40,6 +42,8 @@ pub enum Type {
     Text(u16),
     /// AXIS.
     Axis,
+    /// FRAME.
+    Frame,
 }
 
 impl Type {
@@ -53,6 +57,7 @@ impl Type {
             Self::Char => "CHAR",
             Self::Text(_) => "STRING",
             Self::Axis => "AXIS",
+            Self::Frame => "FRAME",
         }
     }
 
@@ -65,6 +70,7 @@ impl Type {
             Self::Char => Value::Char(0),
             Self::Text(_) => Value::Text(String::new()),
             Self::Axis => Value::Axis(AxisIndex(u16::MAX)),
+            Self::Frame => Value::Frame(Vec::new()),
         }
     }
 }
@@ -80,6 +86,7 @@ impl Value {
             Self::Char(_) => Type::Char,
             Self::Text(_) => Type::Text(u16::MAX),
             Self::Axis(_) => Type::Axis,
+            Self::Frame(_) => Type::Frame,
         }
     }
 
@@ -91,7 +98,7 @@ impl Value {
             Self::Real(value) => Some(*value),
             Self::Bool(value) => Some(f64::from(u8::from(*value))),
             Self::Char(value) => Some(f64::from(*value)),
-            Self::Text(_) | Self::Axis(_) => None,
+            Self::Text(_) | Self::Axis(_) | Self::Frame(_) => None,
         }
     }
 
@@ -101,7 +108,7 @@ impl Value {
             Self::Int(value) => Some(i64::from(*value)),
             Self::Bool(value) => Some(i64::from(*value)),
             Self::Char(value) => Some(i64::from(*value)),
-            Self::Real(_) | Self::Text(_) | Self::Axis(_) => None,
+            Self::Real(_) | Self::Text(_) | Self::Axis(_) | Self::Frame(_) => None,
         }
     }
 
@@ -133,8 +140,8 @@ impl Value {
                 }
                 Ok(Self::Text(text))
             }
-            (Type::Axis, found @ Self::Axis(_)) => Ok(found),
-            (Type::Text(_) | Type::Axis, found) => Err(unfit(&found)),
+            (Type::Axis, found @ Self::Axis(_)) | (Type::Frame, found @ Self::Frame(_)) => Ok(found),
+            (Type::Text(_) | Type::Axis | Type::Frame, found) => Err(unfit(&found)),
         }
     }
 }

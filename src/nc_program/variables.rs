@@ -79,7 +79,7 @@ pub(super) fn element(dimensions: &[u32], indices: &[i32], at: Span) -> Result<u
 pub(super) fn index(value: &Value, at: Span) -> Result<i32, Fault> {
     match value {
         Value::Int(_) | Value::Real(_) | Value::Char(_) => integer(value.number().unwrap_or_default(), at),
-        Value::Bool(_) | Value::Text(_) | Value::Axis(_) => {
+        Value::Bool(_) | Value::Text(_) | Value::Axis(_) | Value::Frame(_) => {
             Err(Fault::new(12410, at, format!("an index is a number, this is {}", value.of_type().name())))
         }
     }

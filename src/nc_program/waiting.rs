@@ -15,8 +15,8 @@ pub(super) fn waits(statement: &Statement) -> bool {
     match statement {
         Statement::Define { variables, .. } => variables.iter().any(|variable| match &variable.initial {
             Initial::None => false,
-            Initial::Values(values) => values.iter().any(reads),
-            Initial::All(value) => reads(value),
+            Initial::Values(values) => values.iter().flatten().any(reads),
+            Initial::All(value, count) => reads(value) || count.as_ref().is_some_and(reads),
         }),
         Statement::If { condition, .. } | Statement::While(condition) | Statement::Until(condition) => reads(condition),
         Statement::For { from, to, .. } => reads(from) || reads(to),

@@ -2,11 +2,11 @@
 
 use super::alarm::{Fault, Span};
 use super::expression::{Expression, Parser};
-use super::syntax::{
-    Address, AddressWord, Assignment, Command, Frequency, Modifier, Synchronised, SynchronisedWord, Word,
-};
+use super::function::Function;
+use super::syntax::{Address, AddressWord, Assignment, Frequency, Modifier, Synchronised, SynchronisedWord, Word};
 use super::token::{Kind, Numbered, Symbol};
 use super::value::Value;
+use super::vocabulary::{Command, is_keyword};
 
 /// A word, or an assignment.
 #[derive(Debug)]
@@ -160,8 +160,17 @@ impl Parser<'_> {
             self.at += 1;
             return self.assigned(Address::Axis(axis), None, at);
         }
+        if is_keyword(name) {
+            return Err(Fault::new(12080, at, "this word of the language does not belong here"));
+        }
+        if ADDRESSES.iter().any(|row| row.0 == name) {
+            return Err(Fault::new(12080, at, "`=` and a value must follow"));
+        }
         if is_assigned || is_indexed {
             return self.assignment().map(Item::Assignment);
+        }
+        if Function::find(name).is_some() {
+            return Err(Fault::new(12080, at, "a function belongs to an expression"));
         }
         Err(Fault::new(12550, at, "the name is no address, function, command or axis"))
     }
@@ -248,8 +257,29 @@ impl Parser<'_> {
         let at = self.here();
         let place = self.place()?;
         self.need(Symbol::Assign, "`=`")?;
-        let value = self.expression()?;
+        let value = match self.list()? {
+            Some(list) => list,
+            None => self.expression()?,
+        };
         Ok(Assignment { place, value, at: at.until(self.before()) })
+    }
+
+    /// `SET(1,,3)`, `REP(0)`, `REP(0,5)`.
+    fn list(&mut self) -> Result<Option<Expression>, Fault> {
+        let at = self.here();
+        let is_repeated = self.name() == Some("REP");
+        if !(is_repeated || self.name() == Some("SET")) || !self.is_symbol(1, Symbol::Open) {
+            return Ok(None);
+        }
+        self.at += 1;
+        let values = self.arguments()?.unwrap_or_default();
+        let at = at.until(self.before());
+        let fits =
+            if is_repeated { matches!(values.as_slice(), [Some(_)] | [Some(_), Some(_)]) } else { !values.is_empty() };
+        if !fits {
+            return Err(Fault::new(12080, at, "SET has values, REP has a value and how many elements get it"));
+        }
+        Ok(Some(Expression::List { is_repeated, values, at }))
     }
 
     /// What can have a value: an R parameter, a variable, a system variable.

@@ -1,4 +1,4 @@
-//! FC 18 (SpinCtrl) for PLC programs in Rust: positions an axis by the PLC. On the NCK's side it is DB31.DBB32 to 43 and 104 to 107, on the 828D
+//! FC 18 (SpinCtrl) for PLC programs in Rust: positions an axis or a spindle by the PLC, and lets a spindle rotate or oscillate. On the NCK's side it is DB31.DBB32 to 43 and 104 to 107, on the 828D
 //! DB380x.DBB3000 to 3011 and DB390x.DBB3000 to 3003, which a program can also write by itself.
 //!
 //! | step | what the block does |
@@ -8,6 +8,9 @@
 //! | position reached, or an error | InPos, or Error and State; they stay while Start is 1 |
 //! | Stop rises, or Start falls before that | the start bit goes: the axis stops on its ramp and drops the rest; InPos and Error stay 0 |
 //! | Start = 0 | InPos = Error = State = 0; an axis that the block has requested goes back to its channel |
+//!
+//! A spindle that rotates or oscillates (functions 2, 3, 9) does so until Stop rises: InPos is 1 while Start is 1 and its speed is in range, and
+//! Start = 0 changes nothing. Then it goes back to its channel, if the block has requested it.
 
 use serde::{Deserialize, Serialize};
 
@@ -67,6 +70,8 @@ enum Step {
     Runs,
     /// InPos, or Error with its number.
     Done(u8),
+    /// Start is 0, and the spindle rotates or oscillates on.
+    Turns,
     /// Stopped by Stop: waits for Start = 0.
     Stopped,
     /// The start bit is 0, and the axis brakes.
@@ -84,6 +89,8 @@ pub struct SpinCtrl {
     stop_was: bool,
     /// The block has requested the axis, and gives it back.
     requested: bool,
+    /// The function lets a spindle rotate or oscillate.
+    turns: bool,
 }
 
 impl SpinCtrl {
@@ -98,16 +105,29 @@ impl SpinCtrl {
         let stops = inputs.stop && !std::mem::replace(&mut self.stop_was, inputs.stop);
         self.stop_was = inputs.stop;
         let axis = inputs.axis;
-        if !inputs.start && !matches!(self.step, Step::Idle | Step::Ends | Step::GivesBack | Step::GivenBack) {
+        let turns = self.turns && matches!(self.step, Step::Starts | Step::Runs | Step::Done(0) | Step::Turns);
+        if turns && stops {
             stop(io, axis);
+            stop_turning(io, axis);
+            self.step = if inputs.start { Step::Stopped } else { Step::Ends };
+        } else if turns && !inputs.start && self.step != Step::Starts {
+            stop(io, axis);
+            self.step = Step::Turns;
+        } else if !inputs.start && !matches!(self.step, Step::Idle | Step::Ends | Step::GivesBack | Step::GivenBack) {
+            stop(io, axis);
+            if self.turns && self.step == Step::Starts {
+                stop_turning(io, axis);
+            }
             self.step = Step::Ends;
         } else if stops && matches!(self.step, Step::Requests(_) | Step::Starts | Step::Runs) {
             stop(io, axis);
             self.step = Step::Stopped;
         }
         match self.step {
-            Step::Idle if starts => self.begin(io, inputs),
-            Step::Idle | Step::Done(_) | Step::Stopped => {}
+            Step::Idle | Step::Turns if starts => self.begin(io, inputs),
+            Step::Done(0) if self.turns => self.watch(io, axis),
+            Step::Turns if !io.from_nck.axis(axis).positioning_active() => self.step = Step::Ends,
+            Step::Idle | Step::Done(_) | Step::Stopped | Step::Turns => {}
             Step::Requests(since) => self.wait_for_axis(io, inputs, since),
             Step::Starts | Step::Runs => self.watch(io, axis),
             Step::Ends if starts => self.step = Step::Done(STARTED_TOO_EARLY),
@@ -128,6 +148,7 @@ impl SpinCtrl {
 
     fn begin(&mut self, io: &mut PlcIo<'_>, inputs: &SpinCtrlInputs) {
         let of_axis = matches!(inputs.function, 4..=8);
+        self.turns = matches!(inputs.function, 2 | 3 | 9..=11);
         if !matches!(inputs.function, 1..=11) {
             self.step = Step::Done(SEVERAL_FUNCTIONS);
         } else if inputs.mode > 5 || of_axis && inputs.mode == 5 {
@@ -170,6 +191,8 @@ impl SpinCtrl {
         signals.set_positioning_with_handwheel_override(matches!(function, 7 | 8));
         signals.set_automatic_gear_selection(function == 9);
         signals.set_constant_cutting_rate(matches!(function, 10 | 11));
+        signals.set_stop_spindle_rotation(false);
+        signals.set_stop_spindle_oscillation(false);
         signals.set_positioning_target(inputs.position);
         signals.set_positioning_feedrate(inputs.feedrate);
         match function {
@@ -184,7 +207,9 @@ impl SpinCtrl {
     /// Until the NCK has reached the position, or has failed.
     fn watch(&mut self, io: &PlcIo<'_>, axis: AxisNumber) {
         let shown = io.from_nck.axis(axis);
-        if shown.positioning_active() {
+        if self.turns && shown.positioning_active() {
+            self.step = if shown.position_reached() { Step::Done(0) } else { Step::Runs };
+        } else if shown.positioning_active() {
             self.step = Step::Runs;
         } else if shown.position_reached() {
             self.step = Step::Done(0);
@@ -204,8 +229,10 @@ impl SpinCtrl {
             return;
         }
         self.step = Step::Idle;
+        let signals = io.to_nck.axis(axis);
+        signals.set_stop_spindle_rotation(false);
+        signals.set_stop_spindle_oscillation(false);
         if self.requested {
-            let signals = io.to_nck.axis(axis);
             signals.set_request_plc_axis(false);
             signals.set_replacement_activation_signal(false);
             self.step = Step::GivesBack;
@@ -213,13 +240,20 @@ impl SpinCtrl {
     }
 }
 
-/// All start bits go, and the stop bits of a spindle come.
+/// All start bits go.
 fn stop(io: &mut PlcIo<'_>, axis: AxisNumber) {
     let signals = io.to_nck.axis(axis);
     signals.set_start_positioning_axis(false);
     signals.set_start_spindle_positioning(false);
     signals.set_start_spindle_rotation(false);
     signals.set_start_spindle_oscillation(false);
+}
+
+/// The stops of rotation and oscillation come.
+fn stop_turning(io: &mut PlcIo<'_>, axis: AxisNumber) {
+    let signals = io.to_nck.axis(axis);
+    signals.set_stop_spindle_rotation(true);
+    signals.set_stop_spindle_oscillation(true);
 }
 
 #[cfg(test)]

@@ -59,8 +59,9 @@ impl Session {
     /// # Errors
     /// The channel does not exist.
     pub fn nc(&mut self, text: &str, channel: u8) -> Result<(), Failure> {
-        let mut programs = NcPrograms::default();
+        let mut programs = NcPrograms::after(self.texts.clone());
         let path = programs.text(text);
+        self.texts = programs.texts().to_vec();
         self.select(programs, path, channel)
     }
 

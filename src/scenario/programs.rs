@@ -16,6 +16,9 @@ const LARGEST: u64 = 256 << 20;
 /// The folder of programs whose text is in the scenario.
 const IN_PLACE: &str = "_N_SCENARIO_DIR";
 
+/// The text of a program, and its path.
+pub(super) type Text = (Box<str>, String);
+
 /// Programs that are read, to be loaded before the first step.
 #[derive(Debug, Default)]
 pub(super) struct NcPrograms {
@@ -25,10 +28,20 @@ pub(super) struct NcPrograms {
     files: Vec<PathBuf>,
     search_path: Vec<String>,
     /// Programs with their text in the scenario, and their paths.
-    texts: Vec<(Box<str>, String)>,
+    texts: Vec<Text>,
 }
 
 impl NcPrograms {
+    /// Programs of a session that has selected these texts before: another text gets another name.
+    pub(super) fn after(texts: Vec<Text>) -> Self {
+        Self { texts, ..Self::default() }
+    }
+
+    /// The texts so far.
+    pub(super) fn texts(&self) -> &[Text] {
+        &self.texts
+    }
+
     /// The folders of `program_path`, relative to the folder of the scenario.
     pub(super) fn search(&mut self, folder: &str, directory: &Path, place: &Place) -> Result<(), Problem> {
         self.read_folder(&directory.join(folder), folder).map_err(|problem| problem.at(place))?;

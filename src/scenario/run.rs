@@ -19,7 +19,7 @@ use crate::machine::{Command, Machine, OpenOptions};
 use crate::monitor::{Claim, Rule};
 use crate::plc::Programs;
 use crate::source::{Place, Problem};
-use crate::trace::{Head, Watch, Window};
+use crate::trace::{Curves, Head, Panel, Watch, Window};
 use crate::units::{ChannelNumber, Time};
 use crate::variables::Describe;
 
@@ -238,7 +238,13 @@ impl Prepared {
 
     /// The same, but ends after the last cycle up to this time, if a time is given and the scenario lasts so long.
     #[must_use]
-    pub fn run_until(mut self, end: Option<Time>) -> Finished {
+    pub fn run_until(self, end: Option<Time>) -> Finished {
+        self.run_with(end, &mut |_| {})
+    }
+
+    /// The same, and shows the machine after each cycle.
+    #[must_use]
+    pub fn run_with(mut self, end: Option<Time>, look: &mut dyn FnMut(&Machine)) -> Finished {
         let begun = self.session.machine.begin_program();
         let mut unusable = begun.err().map(|problem| match &self.process {
             Some(place) => problem.at(place),
@@ -261,6 +267,7 @@ impl Prepared {
                 Ok(Next::Over) => break None,
                 Ok(Next::Cycle) => self.session.cycle(),
             }
+            look(&self.session.machine);
             let Session { machine, book, trace, .. } = &mut self.session;
             let ended = self.plan.end_cycle(book, machine);
             for note in book.take_notes() {
@@ -334,6 +341,12 @@ impl Prepared {
         self
     }
 
+    /// The machine before the first cycle.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.session.machine
+    }
+
     /// The warnings from the files of the machine.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
@@ -375,6 +388,13 @@ impl Finished {
     #[must_use]
     pub fn svg(&self) -> String {
         self.session.svg_in(self.window, &self.head)
+    }
+
+    /// Curves that were recorded during the run, as a diagram.
+    #[must_use]
+    pub fn plot(&self, curves: &Curves, panels: &[Panel]) -> String {
+        let Session { machine, trace, .. } = &self.session;
+        trace.plot(machine, curves, panels, self.window, &self.head)
     }
 
     /// What its rules have to say although they are not broken: rules that never began, and watches that are open.

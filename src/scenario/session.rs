@@ -11,6 +11,7 @@ use super::file::steps_of;
 use super::naming::{Known, check_captured_name, enable_of, place_named, writable};
 use super::operator::Plan;
 use super::passing::{Book, Next, Progress};
+use super::programs::Text;
 use super::steps::{Action, Reader, Steps};
 use super::values::Setting;
 use crate::expression::{Expression, Followed};
@@ -38,6 +39,8 @@ pub struct Session {
     pub(super) trace: Trace,
     pub(super) watch: Watch,
     pub(super) book: Book,
+    /// The NC programs whose texts were selected.
+    pub(super) texts: Vec<Text>,
 }
 
 impl Session {
@@ -56,6 +59,7 @@ impl Session {
             trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time()),
             watch: Watch::default(),
             book: Book::new(&machine),
+            texts: Vec::new(),
             machine,
         }
     }
@@ -413,6 +417,7 @@ impl Session {
             trace: self.trace.clone(),
             watch: self.watch.clone(),
             book: self.book.clone(),
+            texts: self.texts.clone(),
         })
     }
 

@@ -23,6 +23,12 @@ pub(super) const fn channel_signal(channel: ChannelNumber, signal: Signal, value
     Input::Bit(bit_of(Place::Channel(channel), signal), value)
 }
 
+/// A signal of several bits of a channel as an input.
+#[must_use]
+pub(super) const fn channel_number(channel: ChannelNumber, signal: Signal, value: u8) -> Input {
+    Input::Number(bit_of(Place::Channel(channel), signal), value)
+}
+
 /// A signal of a mode group as an input.
 #[must_use]
 pub(super) const fn mode_group_signal(group: ModeGroupNumber, signal: Signal, value: bool) -> Input {

@@ -174,6 +174,11 @@ rules! {
     OrderEnds "FC18" "the axis has come to rest";
     OrderWithdrawn "FC18" "Start is 0";
     OrderDropped "FC18" "the rest of the way is dropped";
+    SpindleOrder "FC18" "the PLC starts a function of the spindle";
+    SpindleOrderReached "FC18" "the function of the spindle has reached its position or its speed, or oscillates; or no longer";
+    SpindleOrderStopped "FC18" "Stop: the spindle brakes";
+    SpindleOrderEnds "FC18" "something else has ended the function of the spindle";
+    SpindleOrderRefused "FC18" "the function of the spindle cannot be started";
     NoSpindle "FC18" "a function for spindles, and the axis is no spindle";
     PlcControls "28.7" "the PLC controls the axis";
     PlcStops "28.6" "the PLC stops the axis along its braking ramp";

@@ -52,6 +52,7 @@ mod calendar;
 mod causes;
 mod check;
 mod compare;
+mod curves;
 mod happened;
 mod history;
 mod json;
@@ -73,6 +74,7 @@ mod window;
 
 pub use check::{CauseFault, CauseFinding};
 pub use compare::{Comparison, Reading};
+pub use curves::{Curves, Limit, Panel};
 pub use happened::{Detail, HappeningLine};
 pub use history::Trace;
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
@@ -122,6 +124,22 @@ impl Trace {
     #[must_use]
     pub fn svg(&self, describe: &dyn Describe, watch: &Watch, window: Window, head: &Head) -> String {
         svg::document(&self.waves(describe, watch).within(window), head)
+    }
+
+    /// Curves of the same run as a diagram in the style of [`Trace::svg`]: each panel has one scale for its curves. Notes are numbered
+    /// flags.
+    #[must_use]
+    pub fn plot(
+        &self,
+        describe: &dyn Describe,
+        curves: &Curves,
+        panels: &[Panel],
+        window: Window,
+        head: &Head,
+    ) -> String {
+        let mut waves = self.waves(describe, &Watch::default());
+        let counts = curves.rows(panels, &mut waves, self.first_cycle, describe);
+        svg::plot(&waves.within(window), &counts, head)
     }
 }
 

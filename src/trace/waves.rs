@@ -207,7 +207,7 @@ impl Trace {
 }
 
 /// The name of a value below its owner, its unit, and its order.
-fn described(value: NamedValue, describe: &dyn Describe) -> (String, &'static str, super::printable::Order) {
+pub(super) fn described(value: NamedValue, describe: &dyn Describe) -> (String, &'static str, super::printable::Order) {
     match value {
         NamedValue::Axis(axis, value) => {
             let unit = match (value, describe.is_rotary(axis)) {

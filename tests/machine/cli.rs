@@ -77,6 +77,32 @@ fn run_writes_the_trace_as_waveform_and_as_diagram() {
 }
 
 #[test]
+fn run_draws_values_as_curves_with_one_scale() {
+    let directory = directory("curves");
+    fs::write(directory.join("good.toml"), GOOD).unwrap();
+    let run = |options: &[&str]| opennck(&[&["run", "good.toml"], options].concat(), &directory);
+    let output = run(&["--svg", "c.svg", "--curves", "*.following_error,X.velocity", "--from", "4ms"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let svg = fs::read_to_string(directory.join("c.svg")).unwrap();
+    for name in ["X.following_error: ", "XF.following_error: ", "X.velocity: 0.000000 to 0.000000 mm/min"] {
+        assert!(svg.contains(name), "{name}: {svg}");
+    }
+    assert!(!svg.contains("M0.0") && svg.ends_with("</svg>\n"), "{svg}");
+    // The values are not watched: the printed trace does not have them.
+    assert!(!out(&output).contains("following_error"), "{}", out(&output));
+    for (curve, text) in [
+        ("X.folowing_error", "--curves: "),
+        ("M0.0", "--curves: expected the name of a value for a curve, found `M0.0`"),
+        ("CHAN1.program", "--curves: expected the name of a value for a curve"),
+    ] {
+        let output = run(&["--svg", "d.svg", "--curves", curve]);
+        assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "nothing runs");
+        assert!(err(&output).contains(text) && !directory.join("d.svg").exists(), "{}", err(&output));
+    }
+    assert_eq!(run(&["--curves", "X.velocity"]).status.code(), Some(2), "there is no picture for them");
+}
+
+#[test]
 fn diff_reports_the_first_difference_in_words() {
     let directory = directory("diff");
     let write = |name: &str, text: &str| fs::write(directory.join(name), text).unwrap();
@@ -441,6 +467,7 @@ fn every_command_has_help_and_a_mistyped_one_ends_with_2() {
         &["machine-data", "check", "--help"],
         &["plc", "check", "--help"],
         &["machine-data", "list", "--help"],
+        &["tune-limits", "--help"],
     ] {
         let output = opennck(arguments, &directory);
         assert!(output.status.code() == Some(0) && out(&output).contains("Usage:"), "{arguments:?}");
@@ -539,7 +566,7 @@ fn each_shell_has_completions() {
         let output = opennck(&["completions", shell], &directory);
         assert_eq!(output.status.code(), Some(0), "{}", err(&output));
         assert!(
-            out(&output).contains("flowchart") && out(&output).contains("machine-data"),
+            ["flowchart", "machine-data", "tune-limits"].iter().all(|command| out(&output).contains(command)),
             "{shell}: {}",
             out(&output)
         );

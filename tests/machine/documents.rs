@@ -203,7 +203,7 @@ fn folder_of_the_program() -> PathBuf {
 fn folder_of(page: &Page) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("pages").join(page.path.replace('/', "_"));
     let _ = fs::remove_dir_all(&folder);
-    for below in ["golden/jog", "golden/worked_example", "machine_data", "plc_images"] {
+    for below in ["golden/jog", "golden/motion", "golden/worked_example", "machine_data", "plc_images"] {
         copy(&project().join(below), &folder.join(below));
     }
     fs::copy(project().join("examples/python_plc/opennck_image.py"), folder.join("opennck_image.py"))
@@ -575,4 +575,33 @@ fn the_findings_of_nc_check_are_those_that_the_page_shows() {
     let output = Command::new(env!("CARGO_BIN_EXE_opennck")).args(&arguments).current_dir(&folder).output().unwrap();
     assert_eq!(String::from_utf8(output.stdout).unwrap(), texts(&page, "text")[0]);
     assert_eq!(output.status.code(), Some(1));
+}
+
+/// A picture in a page is what the command below it writes. With OPENNCK_ACCEPT=1 this test writes it.
+#[test]
+fn pictures_are_those_of_their_commands() {
+    let mut count = 0;
+    for page in pages() {
+        let pictures = links(&page.prose).into_iter().map(|(_, link)| link).filter(|link| link.ends_with(".svg"));
+        for picture in pictures {
+            let option = format!("--svg {picture}");
+            let commands = page.commands();
+            let command = commands.iter().find(|(_, command)| command.contains(&option));
+            let (_, command) = command.unwrap_or_else(|| panic!("{}: no command writes {picture}", page.path));
+            let written = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(&picture);
+            let words: Vec<_> = command.split_whitespace().skip(1).map(str::to_owned).collect();
+            let words =
+                words.iter().map(|word| if *word == picture { written.display().to_string() } else { word.clone() });
+            let mut run = Command::new(env!("CARGO_BIN_EXE_opennck"));
+            let output = run.args(words).current_dir(project()).output().expect("the project has it");
+            assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+            let (written, kept) = (fs::read_to_string(written).expect("it was written"), format!("docs/{picture}"));
+            if std::env::var_os("OPENNCK_ACCEPT").is_some() {
+                fs::write(project().join(&kept), &written).expect("the project can be written");
+            }
+            assert!(read(&kept) == written, "{kept} is old: run this test once with OPENNCK_ACCEPT=1");
+            count += 1;
+        }
+    }
+    assert!(count >= 1);
 }

@@ -26,5 +26,6 @@ mod runner;
 mod s7;
 mod scenario_language;
 mod second_control;
+mod tune_limits;
 mod why_not;
 mod why_not_command;

@@ -71,6 +71,7 @@ const ALARMS: &[(u32, &str, &str, &str, bool)] = &[
     (14011, "1", "NOWHERE", "NOWHERE\nM30", true),
     (14011, "1", "L0123", "L0123\nM30", true),
     (14011, "1", "NOWHERE", "CALL \"NOWHERE\"\nM30", true),
+    (14016, "N5", "", "N5 M60 M61\nM30", false),
     (14020, "1", "", "R1=SQRT(-1)\nM30", true),
     (14020, "1", "", "R1=SIN(1,2)\nM30", true),
     (14020, "1", "", "PRESETON(X)\nM30", true),

@@ -85,7 +85,7 @@ fn functions_have_their_values() {
         ("ROUND(2.5)", 3.0),
         ("ROUND(-2.5)", -2.0),
         ("ROUNDUP(2.1)", 3.0),
-        ("ROUNDUP(-2.1)", -3.0),
+        ("ROUNDUP(-2.1)", -2.0),
         ("LN(1)", 0.0),
         ("EXP(0)", 1.0),
         ("MINVAL(3,2)", 2.0),

@@ -7,6 +7,7 @@ mod blocks;
 mod checks;
 mod expressions;
 mod flow;
+mod frames;
 mod saved;
 mod words;
 
@@ -127,6 +128,10 @@ impl Environment for Channel {
 
     fn is_restarting(&self) -> bool {
         self.is_restarting
+    }
+
+    fn replacing_program(&self, m: f64) -> Option<String> {
+        [60.0, 61.0].contains(&m).then(|| "SUB".to_owned())
     }
 
     fn find_program(&self, request: &Request<'_>) -> Option<Arc<Program>> {

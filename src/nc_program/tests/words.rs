@@ -190,7 +190,7 @@ fn functions_that_are_not_modelled_are_refused() {
         "FD=5",
         "MCALL L10",
         "TRAORI",
-        "DEF FRAME AB",
+        "R1=CROT(Z,45)",
         "COUPDEF(X,Y)",
         "MEAS=1",
         "SETMS(2)",
@@ -367,10 +367,10 @@ fn blocks_that_must_not_run_ahead_wait() {
 
 #[test]
 fn the_page_names_every_word() {
-    use crate::nc_program::{function, functions, syntax, words};
+    use crate::nc_program::{function, functions, vocabulary, words};
     let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/nc_programs.md")).unwrap();
     let named: Vec<&str> = page.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
-    let commands = syntax::COMMANDS.iter().map(|row| row.0);
+    let commands = vocabulary::COMMANDS.iter().map(|row| row.0);
     let addresses = words::ADDRESSES.iter().map(|row| row.0);
     let others = function::FUNCTIONS.iter().map(|row| row.0);
     // Ranges of numbers, as G54 to G57, name their ends.

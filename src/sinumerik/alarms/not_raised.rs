@@ -47,7 +47,7 @@ alarms! {
     16906 [DISPLAY] CancelKey "channel %1 action %2 aborted by an alarm";
     16907 [DISPLAY] CancelKey "channel %1 action %2 only possible in stop";
     16908 [DISPLAY] CancelKey "channel %1 action %2 only possible in reset or at the block end";
-    16914 [DISPLAY] CancelKey "channel %1 mode change not allowed, action %2";
+    16927 [DISPLAY] CancelKey "channel %1 action %2 not allowed while an interrupt is handled";
     16928 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not possible";
     16933 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not allowed in the present state";
     17630 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 reference point approach not possible";

@@ -51,6 +51,7 @@ alarms! {
     14012 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 too many program levels";
     14013 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 number of passes is not positive";
     14014 [DISPLAY] CancelKey "channel %1 selected program %3 does not exist";
+    14016 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 several M functions are replaced by subprograms";
     14020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 wrong value or number of parameters";
     14025 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 wrong ID of a synchronised action";
     14040 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 end point of the circle is wrong";
@@ -69,6 +70,7 @@ alarms! {
     14750 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 too many auxiliary functions";
     14757 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 action does not fit the type of the synchronised action";
     14760 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 several auxiliary functions of one group";
+    14769 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 spindle %3: M%4 is one M function too many";
     14800 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 path feedrate is not positive";
     14810 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 feedrate of a positioning axis is negative %3";
     15310 [DISPLAY] CancelKey "channel %1 block search: the program %2 does not exist";
@@ -91,6 +93,7 @@ alarms! {
     16830 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 position outside the modulo range %3";
     16912 [DISPLAY] CancelKey "channel %1 action %2 only in the state reset";
     16913 [DISPLAY] CancelKey "channel %2 action %3 only in the state reset";
+    16914 [DISPLAY] CancelKey "mode group %1 channel %2 mode change not allowed, action %3";
     16919 [DISPLAY] CancelKey "channel %1 action %2 not allowed while an alarm is pending";
     16920 [DISPLAY] CancelKey "channel %1 action %2 already active";
     16924 [DISPLAY] CancelKey "channel %1 program test: caution, it changes tool data";
@@ -112,7 +115,8 @@ alarms! {
     17095 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 value is not valid";
     17180 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 tool offset number is wrong";
     20140 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 synchronised action: the command axis %2 cannot move, alarm %3";
-    20141 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 synchronised action: axis %2 is moved by the program";
+    20141 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 synchronised action %3: axis %4 is moved otherwise";
+    20143 [DISPLAY] CancelKey "channel %1 synchronised action %3: command axis %4 is under control of the PLC";
     22321 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 PRESET not allowed during motion";
 }
 
@@ -147,6 +151,8 @@ pub(in crate::sinumerik) const WRONG_AXIS_TYPE: AlarmNumber = AlarmNumber(14092)
 pub(in crate::sinumerik) const CIRCLE_RADIUS: AlarmNumber = AlarmNumber(14095);
 /// G74 of a synchronous axis; in REF, a key of one in an open grouping, then without a block.
 pub(in crate::sinumerik) const REFERENCING_COUPLED: AlarmNumber = AlarmNumber(16794);
+/// More than five M functions in a block, with those that it does not name.
+pub(in crate::sinumerik) const TOO_MANY_M_FUNCTIONS: AlarmNumber = AlarmNumber(14769);
 /// An action while an alarm is pending.
 pub(in crate::sinumerik) const ALARM_PENDING: AlarmNumber = AlarmNumber(16919);
 /// An action that is already active.
@@ -184,10 +190,14 @@ pub(in crate::sinumerik) const START_IN_SERUPRO: AlarmNumber = AlarmNumber(16942
 pub(in crate::sinumerik) const START_IN_MDA: AlarmNumber = AlarmNumber(16952);
 /// A command axis of a synchronised action that cannot move.
 pub(in crate::sinumerik) const COMMAND_AXIS: AlarmNumber = AlarmNumber(20140);
-/// A command axis that the program moves.
+/// A command axis that a PLC program has.
+pub(in crate::sinumerik) const COMMAND_AXIS_OF_PLC: AlarmNumber = AlarmNumber(20143);
+/// A command axis that the program moves, or that another channel has.
 pub(in crate::sinumerik) const COMMAND_AXIS_IN_MOTION: AlarmNumber = AlarmNumber(20141);
 /// A change between AUTOMATIC and MDA while a program runs or is stopped.
 pub(in crate::sinumerik) const MODE_ONLY_IN_RESET: AlarmNumber = AlarmNumber(16913);
+/// REF while a program is interrupted.
+pub(in crate::sinumerik) const MODE_NOT_ALLOWED: AlarmNumber = AlarmNumber(16914);
 /// A program test begins.
 pub(in crate::sinumerik) const PROGRAM_TEST: AlarmNumber = AlarmNumber(16924);
 

@@ -33,6 +33,12 @@ General {
     10706 SLASH_MASK slash_mask: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
     /// block search with program test; bit 0: no stop at M0; bit 1: START of another channel starts nothing, without 16942; bit 4: overrides are ignored
     10708 SERUPRO_MASK serupro_mask: u32 = 0; "", Range::ANY, PowerOn;
+    /// M functions behind which preparation waits until everything has been executed; -1: none
+    10713 M_NO_FCT_STOPRE m_no_fct_stopre: [i32; 15] = [-1; 15]; "", Range::ANY, PowerOn;
+    /// M functions that a subprogram replaces; -1: none
+    10715 M_NO_FCT_CYCLE m_no_fct_cycle: [i32; 30] = [-1; 30]; "", Range::ANY, PowerOn;
+    /// names of the subprograms that replace the M functions of MD10715
+    10716 M_NO_FCT_CYCLE_NAME m_no_fct_cycle_name: [String; 30] = std::array::from_fn(|_| String::new()); "", Range::ANY, PowerOn;
     /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions are selected by their signals (O-19)
     10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;
     /// axis exchange; bit 0: another channel takes an axis automatically also after WAITP; bit 3: the PLC requests only exclusive or permanent

@@ -4,7 +4,7 @@
 //! selected; if all are 0, the mode does not change; DBX0.4 inhibits a change. Machine functions act within their mode: TEACH IN
 //! in MDA, REF and REPOS in JOG; REF has priority over REPOS. REPOS moves an axis back to the position at which a program was
 //! interrupted. As no program can be interrupted yet, its keys move nothing. MD10720 defines the mode after power on; the default
-//! is JOG. AUTOMATIC and MDA exclude each other while a program of either runs or is stopped (16913).
+//! is JOG. AUTOMATIC and MDA exclude each other while a program of either runs or is stopped (16913), and so does REF (16914).
 
 use crate::image::{Signal, ToNck, mode_group_from_nck, mode_group_to_nck};
 use crate::sinumerik::alarms::programs as alarms;
@@ -32,6 +32,27 @@ impl State {
             mode != Mode::Jog && run.is_some_and(|run| run.is_mda != (mode == Mode::Mda))
         })?;
         Some(channel)
+    }
+
+    /// REF is not selected while a program of the group is stopped or interrupted (16914).
+    fn refuses_reference(
+        &mut self,
+        group: ModeGroupNumber,
+        is_requested: bool,
+        input: Input,
+        parameters: &Parameters,
+    ) -> bool {
+        let mut channels = parameters.existing_channels().filter(|(_, of)| *of == group).map(|(channel, _)| channel);
+        let hindering = channels.find(|channel| self.programs[*channel].run.is_some()).filter(|_| is_requested);
+        let was = std::mem::replace(&mut self.mode_groups[group].refused_reference, hindering.is_some());
+        if let (Some(channel), false) = (hindering, was) {
+            let event =
+                self.log.note_one(Place::ModeGroup(group), Rule::ModeRefused, input, self.programs[channel].cause);
+            let action = Parameter::Text(short_text("machine function REF"));
+            let shown = [Parameter::None, Parameter::Channel(channel), action, Parameter::None];
+            self.alarms.raise(alarms::MODE_NOT_ALLOWED, Place::ModeGroup(group), shown, event);
+        }
+        hindering.is_some()
     }
 
     fn select_mode(&mut self, group: ModeGroupNumber, parameters: &Parameters, to_nck: &ToNck) {
@@ -72,8 +93,12 @@ impl State {
             state.mode = mode;
             state.mode_cause = self.log.note_one(place, Rule::ModeSelected, input, EventId::NONE);
         }
+        let wants_reference = state.mode == Mode::Jog && signals.machine_function_ref();
+        let pressed = input(mode_group_to_nck::machine_function_ref, true);
+        let refuses = self.refuses_reference(group, wants_reference, pressed, parameters);
+        let state = &mut self.mode_groups[group];
         let function = match state.mode {
-            Mode::Jog if signals.machine_function_ref() => MachineFunction::Reference,
+            Mode::Jog if signals.machine_function_ref() && !refuses => MachineFunction::Reference,
             Mode::Jog if signals.machine_function_repos() => MachineFunction::Repos,
             Mode::Mda if signals.machine_function_teach_in() => MachineFunction::TeachIn,
             Mode::Jog | Mode::Mda | Mode::Automatic => MachineFunction::None,

@@ -140,6 +140,19 @@ impl State {
     pub(in crate::sinumerik) fn is_referenced(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
         self.summary.referenced.has_all_of(parameters.channels[channel].reference_needed)
     }
+
+    /// Whether the axes that need their reference point allow NC start in this mode: with MD20700 = 2 it suffices in MDA that their positions
+    /// are restored (71.4, 71.5).
+    pub(in crate::sinumerik) fn may_start_unreferenced(
+        &self,
+        channel: ChannelNumber,
+        is_mda: bool,
+        parameters: &Parameters,
+    ) -> bool {
+        let own = &parameters.channels[channel];
+        let suffices = is_mda && own.restored_suffices_in_mda;
+        suffices && own.reference_needed.iter().all(|axis| self.axes[axis].knows_position())
+    }
 }
 
 /// Whether an alarm at this place resets "mode group ready" of a group.

@@ -107,6 +107,8 @@ pub(in crate::sinumerik) struct ModeGroup {
     pub function_cause: EventId,
     /// The mode whose selection is refused: 16913 comes once.
     pub refused: Option<Mode>,
+    /// REF is refused: 16914 comes once.
+    pub refused_reference: bool,
     /// DB11.DBB5 was written from outside: the control no longer mirrors REF there (E-01).
     pub hmi_owns_strobe: bool,
 }

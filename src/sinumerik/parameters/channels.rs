@@ -20,6 +20,8 @@ pub struct ChannelParameters {
     pub reference_needed: AxisSet,
     /// MD20700.
     pub start_locked: bool,
+    /// MD20700 = 2: for blocks of MDA a restored position suffices.
+    pub restored_suffices_in_mda: bool,
 }
 
 /// All channels.
@@ -35,6 +37,7 @@ pub(in crate::sinumerik) fn channels(
         ChannelParameters {
             mode_group: data.mode_group(channel),
             start_locked: locked,
+            restored_suffices_in_mda: data.channels[channel].refp_nc_start_lock == 2,
             axes: own().map(|(number, _)| number).collect(),
             known: axes
                 .iter()

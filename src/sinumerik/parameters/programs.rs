@@ -6,7 +6,7 @@ use std::sync::Arc;
 use arrayvec::ArrayVec;
 
 use crate::motion::path::{Feed, LONGEST_WINDOW, PATH_AXES};
-use crate::nc_program::{AuxiliaryKind, AxisKind, AxisName, AxisNames, GFunction, Modal};
+use crate::nc_program::{AuxiliaryKind, AxisKind, AxisName, AxisNames, Block, GFunction, Modal};
 use crate::sinumerik::machine_data::{Channel, MachineData};
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
@@ -160,6 +160,12 @@ pub(in crate::sinumerik) struct ProgramParameters {
     pub skip_change: ChangeTime,
     /// MD22000, 22010, 22020, 22030.
     pub auxiliary_groups: Vec<AuxiliaryGroup>,
+    /// MD10713: preparation waits behind these M functions.
+    pub stopping_functions: Vec<i32>,
+    /// MD10715 and MD10716: M functions and the subprograms that replace them.
+    pub replaced_functions: Vec<(i32, String)>,
+    /// MD20730.
+    pub rapid_is_linear: bool,
     /// MD10708 bit 0: SERUPRO does not stop at M0.
     pub serupro_passes_m0: bool,
     /// MD10708 bit 4: SERUPRO ignores the overrides.
@@ -189,6 +195,14 @@ impl ProgramParameters {
             one.kind == kind && (one.extension < 0 || one.extension == i32::from(extension)) && is_value
         });
         named.map(|one| one.group)
+    }
+
+    /// MD10713: whether preparation waits behind a block until it has been executed.
+    pub(in crate::sinumerik) fn waits_behind(&self, block: &Block) -> bool {
+        block.auxiliary.iter().any(|function| {
+            let is_plain = function.kind == AuxiliaryKind::M && function.extension.unwrap_or(0) == 0;
+            is_plain && self.stopping_functions.iter().any(|number| (f64::from(*number) - function.value).abs() < 0.5)
+        })
     }
 
     /// The axis of a spindle; 0 is the master spindle.
@@ -296,6 +310,9 @@ pub(in crate::sinumerik) fn programs(
         dry_run_change: ChangeTime::new(data.general.dryrun_mask),
         skip_change: ChangeTime::new(data.general.slash_mask),
         auxiliary_groups: auxiliary_groups(md),
+        stopping_functions: data.general.m_no_fct_stopre.into_iter().filter(|number| *number >= 0).collect(),
+        replaced_functions: replaced_functions(data),
+        rapid_is_linear: md.g0_linear_mode,
         serupro_passes_m0: data.general.serupro_mask & 1 == 1,
         serupro_ignores_overrides: data.general.serupro_mask & 16 == 16,
         serupro_speed: (md.serupro_speed_mode, md.serupro_speed_factor),
@@ -303,6 +320,15 @@ pub(in crate::sinumerik) fn programs(
         shown_groups: md.gcode_groups_to_plc,
         shows_groups_in_order: md.gcode_groups_to_plc_mode & 1 == 1,
     }
+}
+
+/// MD10715 with MD10716. Stops, ends, and functions of spindles cannot be replaced.
+fn replaced_functions(data: &MachineData) -> Vec<(i32, String)> {
+    let rows = data.general.m_no_fct_cycle.iter().zip(&data.general.m_no_fct_cycle_name);
+    let is_replaced = |number: i32, name: &str| {
+        number > 5 && ![17, 19, 30, 70].contains(&number) && !(40..=45).contains(&number) && !name.is_empty()
+    };
+    rows.filter(|(number, name)| is_replaced(**number, name)).map(|(number, name)| (*number, name.clone())).collect()
 }
 
 /// The window of SOFT in cycles: with it no axis exceeds MD32431, and the path not MD20600, at any acceleration that the axes can have.

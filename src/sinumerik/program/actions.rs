@@ -6,6 +6,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::{BlockAlarm, Run, block_name, on_path};
+use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::Position;
 use crate::variables::{AlarmNumber, Parameter, short_text};
@@ -33,7 +34,8 @@ impl State {
             }
             Action::SpindlePosition { spindle, value, dimension, .. } => {
                 if let Some(axis) = stage.own.spindle(spindle.unwrap_or(0)) {
-                    self.position_spindle(axis, (value, dimension), stage.parameters, run.block_cause);
+                    let by = Rule::SpindlePositioned;
+                    self.position_spindle(axis, (value, dimension), by, stage.parameters, run.block_cause);
                 }
             }
             Action::Limit { is_upper, spindles, .. } => {

@@ -18,10 +18,9 @@ use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ChangeTime;
+use crate::sinumerik::program::executable::Executable;
 use crate::sinumerik::program::path::Stage;
-use crate::sinumerik::program::state::{
-    Change, Executable, Phase, Preparation, ProgramState, ProgramTest, Run, on_path,
-};
+use crate::sinumerik::program::state::{Change, Phase, Preparation, ProgramState, ProgramTest, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisSet, ChannelNumber};
@@ -207,7 +206,7 @@ impl State {
         let behind = run.queue.back().and_then(|block| block.behind()).unwrap_or(&run.behind);
         run.interpreter.clone_from(&behind.interpreter);
         run.axis_feeds.clone_from(&behind.axis_feeds);
-        run.path_override = behind.path_override;
+        (run.path_override, run.programmed_on_path) = (behind.path_override, behind.programmed_on_path);
         run.end = behind.end;
         run.preparation = Preparation::Reads;
     }

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use crate::control;
 use crate::control::Owner;
 use crate::nc_program::{
-    AxisNames, Dialect, Environment, Library, Modal, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
+    AxisIndex, AxisNames, Dialect, Environment, Library, Modal, Program, Refusal, Request, SINUMERIK, SystemVariable,
+    Value,
 };
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::exchange::state::{Holder, Owners};
@@ -76,9 +77,7 @@ impl<'a> Channel<'a> {
             Some(Value::Axis(axis)) => {
                 self.parameters.axes.machine_axes.get(usize::from(axis.0)).copied().ok_or(Refusal::Axis)
             }
-            Some(Value::Int(_) | Value::Real(_) | Value::Bool(_) | Value::Char(_) | Value::Text(_)) | None => {
-                Err(Refusal::Axis)
-            }
+            _ => Err(Refusal::Axis),
         }
     }
 
@@ -183,20 +182,46 @@ impl<'a> Channel<'a> {
         })
     }
 
+    /// `$P_UIFR[1]`: the offsets of all axes that have one.
+    fn settable_frame(&self, variable: &SystemVariable<'_>) -> Result<Vec<(AxisIndex, f64)>, Refusal> {
+        let index = settable_index(variable.indices.first())?;
+        let mut offsets = Vec::new();
+        for &axis in &self.parameters.axes.path {
+            let offset = self.program.settable_offset(index, axis);
+            let name = self.parameters.axes.machine_axes.iter().position(|other| *other == axis);
+            if let (Some(name), true) = (name.and_then(|name| u16::try_from(name).ok()), offset != Position::ZERO) {
+                offsets.push((AxisIndex(name), offset.user()));
+            }
+        }
+        Ok(offsets)
+    }
+
+    /// `$P_UIFR[1]=CTRANS(X,10)`: an axis without an offset gets 0.
+    fn set_settable_frame(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), Refusal> {
+        let index = settable_index(variable.indices.first())?;
+        let Value::Frame(offsets) = value else { return Err(Refusal::WrongType) };
+        let mut axes = Vec::new();
+        for (name, offset) in offsets {
+            axes.push((self.axis(Some(&Value::Axis(*name)))?, Position::from_user(*offset)));
+        }
+        for &axis in &self.parameters.axes.path {
+            let offset = axes.iter().find(|(other, _)| *other == axis).map_or(Position::ZERO, |(_, offset)| *offset);
+            self.program.set_settable_offset(index, axis, offset);
+        }
+        Ok(())
+    }
+
     /// `$P_UIFR[1,X,TR]`: the index in G group 8 and the axis.
     fn settable_offset(&self, variable: &SystemVariable<'_>) -> Result<(u8, AxisNumber), Refusal> {
         let [number, axis, part] = variable.indices else { return Err(Refusal::FirstIndex) };
-        let number = number.number().filter(|number| number.fract() == 0.0 && (1.0..=99.0).contains(number));
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
-        let number = number.ok_or(Refusal::FirstIndex)? as u8;
+        let index = settable_index(Some(number))?;
         let axis = self.axis(Some(axis))?;
         match part {
             Value::Text(part) if part == "TR" => {}
             // Rotation, scale and mirror image.
             _ => return Err(Refusal::NotModelled),
         }
-        // $P_UIFR[1] is G54, index 2 of its group; [5] is G505, index 6.
-        Ok((number + 1, axis))
+        Ok((index, axis))
     }
 }
 
@@ -271,6 +296,7 @@ impl Environment for Channel<'_> {
             "$P_MSNUM" => Ok(Value::Int(self.parameters.master_spindle.into())),
             "$P_NUM_SPINDLES" => Ok(Value::Int(i32::try_from(self.parameters.spindles.len()).unwrap_or(0))),
             "$AA_S" | "$P_S" | "$P_SDIR" | "$AC_SDIR" | "$AC_SMODE" | "$AC_SGEAR" => self.spindle_value(variable),
+            "$P_UIFR" if variable.indices.len() == 1 => self.settable_frame(variable).map(Value::Frame),
             "$P_UIFR" => {
                 let (index, axis) = self.settable_offset(variable)?;
                 Ok(length(self.program.settable_offset(index, axis)))
@@ -321,6 +347,9 @@ impl Environment for Channel<'_> {
     }
 
     fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), Refusal> {
+        if variable.name == "$P_UIFR" && variable.indices.len() == 1 {
+            return self.set_settable_frame(variable, value);
+        }
         if variable.name == "$P_UIFR" {
             let (index, axis) = self.settable_offset(variable)?;
             let value = value.number().ok_or(Refusal::WrongType)?;
@@ -352,7 +381,7 @@ impl Environment for Channel<'_> {
             Value::Bool(value) => control::Value::Boolean(*value),
             Value::Char(value) => control::Value::Integer((*value).into()),
             Value::Text(text) => control::Value::Text(text.clone()),
-            Value::Axis(_) => return Err(Refusal::WrongType),
+            Value::Axis(_) | Value::Frame(_) => return Err(Refusal::WrongType),
         };
         let (datum, number) = (target.datum(), value.number());
         if datum.read_only {
@@ -382,6 +411,11 @@ impl Environment for Channel<'_> {
         self.restarts
     }
 
+    fn replacing_program(&self, m: f64) -> Option<String> {
+        let rows = &self.parameters.replaced_functions;
+        rows.iter().find(|(number, _)| (f64::from(*number) - m).abs() < 0.5).map(|(_, name)| name.clone())
+    }
+
     fn find_program(&self, request: &Request<'_>) -> Option<Arc<Program>> {
         self.library.find(request)
     }
@@ -389,6 +423,15 @@ impl Environment for Channel<'_> {
     fn program(&self, path: &str) -> Option<Arc<Program>> {
         self.library.program(path)
     }
+}
+
+/// The index in G group 8: $P_UIFR[1] is G54, index 2 of its group; [5] is G505, index 6.
+fn settable_index(number: Option<&Value>) -> Result<u8, Refusal> {
+    let number = number.and_then(Value::number);
+    let number = number.filter(|number| number.fract() == 0.0 && (1.0..=99.0).contains(number));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
+    let number = number.ok_or(Refusal::FirstIndex)? as u8;
+    Ok(number + 1)
 }
 
 /// The index of `$AC_TIMER` and `$AC_MARKER`.

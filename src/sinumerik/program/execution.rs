@@ -14,23 +14,21 @@ use crate::control::Changes;
 use crate::image::ToNck;
 use crate::motion::path::Feed;
 use crate::nc_program::{End, Library};
-use crate::sinumerik::alarms::programs::STILL_POSITIONED;
 use crate::sinumerik::alarms::{Alarm, Reaction};
 use crate::sinumerik::machine_data::{Element, MachineData, TableValue, Target};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::programs::{ChangeTime, OutputTime};
 use crate::sinumerik::program::control::at_stop;
 use crate::sinumerik::program::environment::Channel;
+use crate::sinumerik::program::executable::ProgrammedStop;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::preparation::Preparing;
-use crate::sinumerik::program::state::{
-    BlockAlarm, Phase, Preparation, ProgramState, ProgrammedStop, Run, block_name, on_path,
-};
+use crate::sinumerik::program::state::{BlockAlarm, Phase, Preparation, ProgramState, Run, block_name, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::spindle::functions::limit_of_spindle;
 use crate::sinumerik::state::State;
 use crate::units::{AxisSet, ChannelNumber};
-use crate::variables::{EventId, Input, Parameter, Place, short_text};
+use crate::variables::{EventId, Input, Parameter, Place};
 
 /// Changes of blocks in one cycle: calculation blocks and blocks without motion take no time.
 const CHANGES: usize = 100;
@@ -405,7 +403,7 @@ impl State {
         if stage.to_nck.channels[stage.channel].read_in_disable() || run.read_in_disabled {
             return Progress::Waits;
         }
-        if let Some(alarm) = still_positioned(run) {
+        if let Some(alarm) = run.still_positioned(stage.own) {
             self.raise_block_alarm(alarm, run, stage);
             return Progress::Waits;
         }
@@ -480,14 +478,4 @@ impl State {
         run.phase = Phase::Moving;
         self.output(run, OutputTime::During, stage);
     }
-}
-
-/// 10610: the next block positions an axis again that a POSA still moves.
-fn still_positioned(run: &Run) -> Option<BlockAlarm> {
-    let block = run.queue.front()?;
-    let moves = |axis| run.positionings.iter().any(|positioning| positioning.axis == axis);
-    let again = block.positions.iter().find(|positioning| moves(positioning.axis))?;
-    let name = &block.origin.name;
-    let parameters = [Parameter::Axis(again.axis), Parameter::Text(short_text(name)), Parameter::None];
-    Some(BlockAlarm { number: STILL_POSITIONED, parameters, block: block_name(name) })
 }

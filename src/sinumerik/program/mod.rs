@@ -16,6 +16,7 @@
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
 //! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
 //! | `geometry.rs` | units, offsets, circles |
+//! | `executable.rs` | a block that is ready to be executed |
 //! | `execution.rs` | the block that runs: before, during and at the end of its motion; the change to the next one |
 //! | `ending.rs` | the end of a block: when its motion is over, programmed stops, single block |
 //! | `search.rs` | block search: without calculation, to the contour, to the end point, by program test |
@@ -23,7 +24,7 @@
 //! | `synchronised.rs` | synchronised actions |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
-//! | `positioning.rs` | POS and POSA |
+//! | `positioning.rs`, `own_ways.rs` | axes on their own ways: POS and POSA, rapid traverse with MD20730 = 0 |
 //! | `referencing.rs` | G74 |
 //! | `refused.rs` | couplings and spindles that the channel does not have |
 //! | `preset.rs` | PRESETON, and PRESET of the operator |
@@ -45,10 +46,12 @@ pub(super) mod control;
 pub(super) mod coordination;
 pub(super) mod ending;
 pub(super) mod environment;
+pub(super) mod executable;
 pub(super) mod execution;
 pub(super) mod geometry;
 pub(super) mod main_run;
 pub(super) mod outputs;
+pub(super) mod own_ways;
 pub(super) mod path;
 pub(super) mod positioning;
 pub(super) mod preparation;

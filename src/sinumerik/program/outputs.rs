@@ -2,26 +2,37 @@
 
 use crate::control::Changes;
 use crate::nc_program::{Action, AuxiliaryFunction, AuxiliaryKind, Block, End};
+use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
 use crate::sinumerik::parameters::spindle::SpindleParameters;
 use crate::sinumerik::program::auxiliary::{Entry, Package};
-use crate::sinumerik::program::preparation::Preparing;
-use crate::sinumerik::program::state::{Executable, ProgrammedStop};
+use crate::sinumerik::program::executable::{Executable, ProgrammedStop};
+use crate::sinumerik::program::preparation::{Preparing, block_parameter};
+use crate::sinumerik::program::state::{BlockAlarm, block_name};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::spindle::functions::SPINDLE_FUNCTIONS;
 use crate::sinumerik::state::State;
 use crate::units::ChannelNumber;
-use crate::variables::Place;
+use crate::variables::{Parameter, Place};
 
 impl Preparing<'_> {
     /// Sorts the auxiliary functions by the time of their output, and finds programmed stops.
-    pub(super) fn take_outputs(&self, block: &Block, moves: bool, done: &mut Executable) {
+    pub(super) fn take_outputs(&self, block: &Block, moves: bool, done: &mut Executable) -> Result<(), BlockAlarm> {
         let mut entries = [const { Vec::<Entry>::new() }; 3];
         let mut places = [0_u8; 7];
         if let Some(entry) = self.m19_of_position(block) {
             entries[0].push(entry);
             places[order(AuxiliaryKind::M)] += 1;
+        }
+        let of_block = block.auxiliary.iter().filter(|function| function.kind == AuxiliaryKind::M).count();
+        if let Some(implicit) = entries[0].first()
+            && of_block >= MOST_M_FUNCTIONS
+        {
+            let parameters =
+                [block_parameter(block), Parameter::Number(implicit.extension.into()), Parameter::Number(19)];
+            let block = block_name(&block.origin.name);
+            return Err(BlockAlarm { number: alarms::TOO_MANY_M_FUNCTIONS, parameters, block });
         }
         for function in &block.auxiliary {
             let place = &mut places[order(function.kind)];
@@ -55,6 +66,7 @@ impl Preparing<'_> {
             // A block has at most ten auxiliary functions (14750).
             *package = entries.into_iter().take(Package::new().capacity()).collect();
         }
+        Ok(())
     }
 
     /// M19 of a spindle is SPOS at SD43240. Returns whether it is not output: only MD20850 or MD35035 bit 19 do that.
@@ -163,6 +175,9 @@ impl State {
         was_shown
     }
 }
+
+/// M functions of a block, with those that it outputs without naming them (M19 of SPOS).
+const MOST_M_FUNCTIONS: usize = 5;
 
 /// A function at its place in the interface.
 pub(super) fn entry(function: &AuxiliaryFunction, place: u8, own: &ProgramParameters) -> Entry {

@@ -6,7 +6,7 @@
 use crate::image::{ToNck, axis_to_nck, channel_to_nck};
 use crate::motion::path::{Feed, Overrides, Path, PathBlock, PerPathAxis, Way};
 use crate::sinumerik::axis::travel::Travel;
-use crate::sinumerik::inputs::{axis_signal, channel_signal};
+use crate::sinumerik::inputs::{axis_signal, channel_number, channel_signal};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::positioning::Positioning;
@@ -260,7 +260,7 @@ impl State {
 
     fn step_positionings(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) {
         let mut index = 0;
-        while let Some(&Positioning { axis, target, velocity, .. }) = run.positionings.get(index) {
+        while let Some(&Positioning { axis, target, velocity, is_rapid, .. }) = run.positionings.get(index) {
             let signals = &stage.to_nck.axes[axis];
             let state = &self.axes[axis];
             let unit = self.unit_of(axis);
@@ -273,10 +273,17 @@ impl State {
                 continue;
             }
             index += 1;
-            let factor = stage.parameters.axis_override(signals.feed_override(), signals.override_active());
+            let of_channel = &stage.to_nck.channels[stage.channel];
+            let factor = if is_rapid {
+                let (code, is_active) =
+                    (of_channel.rapid_traverse_override(), of_channel.rapid_traverse_override_active());
+                stage.parameters.path_overrides.rapid(code, is_active)
+            } else {
+                stage.parameters.axis_override(signals.feed_override(), signals.override_active())
+            };
             let on = |unit: &Unit| unit.members().all(|member| self.axes[member].enabling.is_on());
             let stopper = |unit: &Unit| unit.members().find(|member| stage.to_nck.axes[*member].feed_stop());
-            let feed_disable = stage.to_nck.channels[stage.channel].feed_disable();
+            let feed_disable = of_channel.feed_disable();
             let held = if held == Held::Stopped {
                 held
             } else if feed_disable {
@@ -287,6 +294,10 @@ impl State {
             } else if !unit.as_ref().is_some_and(on) {
                 let control = crate::image::axis_from_nck::position_controller_active;
                 Held::By(Rule::MotionBlocked, axis_signal(axis, control, false))
+            } else if factor <= 0.0 && is_rapid {
+                let code = of_channel.rapid_traverse_override();
+                let signal = channel_to_nck::rapid_traverse_override;
+                Held::By(Rule::HeldByOverride, channel_number(stage.channel, signal, code))
             } else if factor <= 0.0 {
                 Held::By(Rule::HeldByOverride, self.axes[axis].override_input(axis))
             } else {

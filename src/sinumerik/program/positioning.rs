@@ -1,4 +1,4 @@
-//! POS and POSA: an axis on its own way to a target.
+//! The movement of an axis on its own way to a target: POS, POSA, and rapid traverse with MD20730 = 0.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,4 +14,6 @@ pub(in crate::sinumerik) struct Positioning {
     pub velocity: f64,
     /// POS: the block ends when the axis is there.
     pub waits: bool,
+    /// G0 with MD20730 = 0: the rapid traverse override of the channel acts, not that of the axis.
+    pub is_rapid: bool,
 }

@@ -13,11 +13,9 @@ use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::environment::Channel;
+use crate::sinumerik::program::executable::{Behind, Criterion, Executable, ReadBlock};
 use crate::sinumerik::program::geometry::{self, BadCircle};
-use crate::sinumerik::program::positioning::Positioning;
-use crate::sinumerik::program::state::{
-    Behind, BlockAlarm, Criterion, Executable, Preparation, ProgrammedStop, ReadBlock, Run, block_name, on_path,
-};
+use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name, on_path};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, short_text};
 
@@ -114,6 +112,7 @@ impl Run {
             interpreter: self.interpreter.clone(),
             axis_feeds: self.axis_feeds.clone(),
             path_override: self.path_override,
+            programmed_on_path: self.programmed_on_path,
             end: self.end,
         }
     }
@@ -145,6 +144,8 @@ impl Run {
                 self.again.push_front(block);
             }
         }
+        self.programmed_on_path =
+            self.queue.back().and_then(Executable::behind).unwrap_or(&self.behind).programmed_on_path;
         self.end = position;
     }
 
@@ -167,41 +168,21 @@ impl Run {
             Availability::All | Availability::Claims(_) | Availability::Refused(_) => {}
         }
         // Blocks behind it may find other axes, or find them elsewhere.
-        self.holds_preparation = exchanges(&read.block) && !calculates;
+        let waits = exchanges(&read.block) || preparing.own.waits_behind(&read.block);
+        self.holds_preparation = waits && !calculates;
         let mut end = self.end;
         match preparing.executable(&read.block, self, &mut end, channel) {
             Ok(executable) => {
                 self.end = end;
                 (read.behind.end, read.behind.axis_feeds) = (end, self.axis_feeds.clone());
-                read.behind.path_override = self.path_override;
+                (read.behind.path_override, read.behind.programmed_on_path) =
+                    (self.path_override, self.programmed_on_path);
                 self.queue.push_back(Executable { block: Some(read), ..executable });
             }
             Err(alarm) => {
                 // What is prepared again behind it stays for later.
                 self.preparation = Preparation::Failed { alarm, block: Some(read) };
             }
-        }
-    }
-}
-
-impl Executable {
-    pub(in crate::sinumerik) fn new(origin: crate::nc_program::Origin, modal: crate::nc_program::Modal) -> Self {
-        Self {
-            origin,
-            modal,
-            way: None,
-            criterion: Criterion::Fine,
-            dwell: 0,
-            dwell_turns: None,
-            positions: Vec::new(),
-            references: Vec::new(),
-            actions: Vec::new(),
-            outputs: Default::default(),
-            stop: ProgrammedStop::None,
-            end: None,
-            is_executable: false,
-            block: None,
-            calculation: None,
         }
     }
 }
@@ -233,6 +214,7 @@ impl Preparing<'_> {
         for word in &block.axes {
             let (axis, place) = self.path_axis(block, word.axis)?;
             end[place] = self.target(block, word, axis, start[place], channel);
+            run.programmed_on_path.set(axis, true);
         }
         let turns = matches!(block.modal.index(1), 3 | 4) && (!block.axes.is_empty() || !block.circle.is_empty());
         let way = if turns {
@@ -251,9 +233,11 @@ impl Preparing<'_> {
         for function in &block.auxiliary {
             run.note_spindle_function(function, self.own);
         }
-        self.take_outputs(block, way.is_some_and(|way| way.length() >= 0.5), &mut done);
+        self.take_outputs(block, way.is_some_and(|way| way.length() >= 0.5), &mut done)?;
         let exact_stop = geometry::is_exact_stop(block) || !done.outputs[2].is_empty();
-        if let Some(way) = way.filter(|way| way.length() >= 0.5) {
+        if exact_stop && geometry::is_rapid(block) && !self.own.rapid_is_linear {
+            self.go_separately(&start, end, &mut done);
+        } else if let Some(way) = way.filter(|way| way.length() >= 0.5) {
             run.numbers += 1;
             let feed = self.feed(block, run.path_override);
             done.way = Some(PathBlock { number: run.numbers, way, feed, exact_stop });
@@ -272,7 +256,7 @@ impl Preparing<'_> {
     }
 
     /// The machine axis of a name, which must be one of the path.
-    fn path_axis(&self, block: &Block, name: AxisIndex) -> Result<(AxisNumber, usize), BlockAlarm> {
+    pub(super) fn path_axis(&self, block: &Block, name: AxisIndex) -> Result<(AxisNumber, usize), BlockAlarm> {
         let axes = &self.own.axes;
         let axis = axes.machine_axes.get(usize::from(name.0)).copied();
         let found = axis.and_then(|axis| Some((axis, axes.place(axis)?)));
@@ -297,14 +281,27 @@ impl Preparing<'_> {
         settable + geometry::programmable_offset(block, &self.own.axes, axis, self.parameters.axes[axis].rotary)
     }
 
-    fn target(&self, block: &Block, word: &AxisWord, axis: AxisNumber, from: f64, channel: &Channel<'_>) -> f64 {
+    pub(super) fn target(
+        &self,
+        block: &Block,
+        word: &AxisWord,
+        axis: AxisNumber,
+        from: f64,
+        channel: &Channel<'_>,
+    ) -> f64 {
         let parameters = &self.parameters.axes[axis];
         let value = geometry::length(word.value, block, parameters.rotary);
         geometry::target(value, word.dimension, from, self.offset(block, axis, channel), parameters.modulo)
     }
 
     /// 10720, 10722, 10730: the end, and the farthest points of an arc.
-    fn check_limits(&self, block: &Block, way: &Way, start: &PerPathAxis, end: &PerPathAxis) -> Result<(), BlockAlarm> {
+    pub(super) fn check_limits(
+        &self,
+        block: &Block,
+        way: &Way,
+        start: &PerPathAxis,
+        end: &PerPathAxis,
+    ) -> Result<(), BlockAlarm> {
         for (place, &axis) in self.own.axes.path.iter().enumerate() {
             let (lowest, highest) = way.bounds(place);
             let moves = highest - lowest >= 0.5 || (end[place] - start[place]).abs() >= 0.5;
@@ -402,7 +399,17 @@ impl Preparing<'_> {
                     run.pauses = true;
                 }
                 Action::Position { .. } => {}
-                Action::WaitForPosition(names) | Action::Release(names) | Action::Get { axes: names, .. } => {
+                Action::WaitForPosition(names) => {
+                    for name in names {
+                        let (axis, _) = self.path_axis(block, *name)?;
+                        if run.programmed_on_path.contains(axis) {
+                            // The program moves it on the path: it is no positioning axis.
+                            return Err(alarm(block, alarms::WRONG_AXIS_TYPE, self.name(*name)));
+                        }
+                    }
+                    done.actions.push(action.clone());
+                }
+                Action::Release(names) | Action::Get { axes: names, .. } => {
                     for name in names {
                         self.path_axis(block, *name)?;
                     }
@@ -430,31 +437,7 @@ impl Preparing<'_> {
                 Action::Synchronised(_) | Action::Cancel(_) => done.actions.push(action.clone()),
             }
         }
-        // After the feeds of the same block, in whatever order they are written.
-        for action in &block.actions {
-            let Action::Position { target, waits } = action else { continue };
-            let (axis, place) = self.path_axis(block, target.axis)?;
-            let programmed = run.axis_feeds.iter().find(|(of, _)| *of == axis).map(|(_, feed)| *feed);
-            let rotary = self.parameters.axes[axis].rotary;
-            let velocity = match programmed {
-                Some(feed) => feed * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 },
-                None => self.parameters.axes[axis].positioning_velocity,
-            };
-            if velocity <= 0.0 {
-                let parameters = [Parameter::Axis(axis), block_parameter(block), Parameter::None];
-                let number = alarms::NO_POSITIONING_VELOCITY;
-                return Err(BlockAlarm { number, parameters, block: block_name(&block.origin.name) });
-            }
-            let start = *end;
-            end[place] = self.target(block, target, axis, start[place], channel);
-            let way = Way::line(start, *end, self.own.axes.counted);
-            self.check_limits(block, &way, &start, end)?;
-            #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
-            let target = Position::new(end[place].round() as i64);
-            let velocity = velocity.min(self.parameters.axes[axis].maximum_velocity);
-            done.positions.push(Positioning { axis, target, velocity, waits: *waits });
-        }
-        Ok(())
+        self.take_positions(block, run, end, done, channel)
     }
 
     /// 14020: a channel that does not exist.

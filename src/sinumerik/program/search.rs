@@ -68,6 +68,9 @@ impl Nck {
                 let second = Parameter::Text(short_text(&second));
                 let shown = [Parameter::Channel(channel), second, Parameter::None, Parameter::None];
                 state.alarms.raise(number, Place::Channel(channel), shown, event);
+            } else if kind == SearchKind::ProgramTest {
+                // All axes of the channel are in program test from this cycle on.
+                self.resting.wake_all();
             }
         }
     }

@@ -9,7 +9,8 @@ use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::control::skip_levels;
-use crate::sinumerik::program::state::{Behind, Phase, Preparation, ProgramState, Run, on_path};
+use crate::sinumerik::program::executable::Behind;
+use crate::sinumerik::program::state::{Phase, Preparation, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber};
@@ -42,7 +43,9 @@ impl State {
             self.start_generators(channel, parameters, pressed);
             return;
         }
-        if !self.is_referenced(channel, parameters) {
+        let may_start = self.is_referenced(channel, parameters)
+            || self.may_start_unreferenced(channel, mode == Mode::Mda, parameters);
+        if !may_start {
             let referenced = channel_from_nck::all_axes_requiring_reference_point_are_referenced;
             let missing = channel_signal(channel, referenced, false);
             let event = self.log.note(place, Rule::StartRefused, [pressed, missing, Input::None], EventId::NONE);
@@ -159,8 +162,13 @@ impl State {
     ) -> Run {
         let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
         let limits = limits(own, parameters);
-        let behind =
-            Behind { interpreter: interpreter.clone(), axis_feeds: Vec::new(), path_override: 1.0, end: position };
+        let behind = Behind {
+            interpreter: interpreter.clone(),
+            axis_feeds: Vec::new(),
+            path_override: 1.0,
+            programmed_on_path: AxisSet::NONE,
+            end: position,
+        };
         Run {
             interpreter,
             is_mda,
@@ -206,6 +214,7 @@ impl State {
             commanded_arrived: false,
             read_in_disabled: false,
             path_override: 1.0,
+            programmed_on_path: AxisSet::NONE,
             waits: None,
             starts: Vec::new(),
             search: None,

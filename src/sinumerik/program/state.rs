@@ -5,11 +5,12 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 use crate::control::SearchKind;
-use crate::motion::path::{PATH_AXES, Path, PathBlock, PathLimits, PerPathAxis};
-use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, ProgramAlarm, SynchronisedAction};
+use crate::motion::path::{PATH_AXES, Path, PathLimits, PerPathAxis};
+use crate::nc_program::{Interpreter, Modal, ProgramAlarm, SynchronisedAction};
 use crate::sinumerik::exchange::state::Claim;
-use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
-use crate::sinumerik::program::auxiliary::{Output, Package};
+use crate::sinumerik::parameters::programs::ProgramParameters;
+use crate::sinumerik::program::auxiliary::Output;
+use crate::sinumerik::program::executable::{Behind, Executable, ReadBlock};
 use crate::sinumerik::program::main_run::MainRun;
 use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::search_state::Search;
@@ -156,23 +157,6 @@ pub(in crate::sinumerik) struct ProgramTest {
     pub cause: EventId,
 }
 
-/// The state of preparation behind a block: from there it can read on once more.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Behind {
-    pub interpreter: Interpreter,
-    pub axis_feeds: Vec<(AxisNumber, f64)>,
-    pub path_override: f64,
-    /// Where the axes of the path are then.
-    pub end: PerPathAxis,
-}
-
-/// A block that was read, with the state behind it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct ReadBlock {
-    pub block: Block,
-    pub behind: Behind,
-}
-
 /// What preparation does next.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum Preparation {
@@ -217,105 +201,6 @@ pub(in crate::sinumerik) fn block_name(name: &str) -> BlockName {
         }
     }
     short
-}
-
-/// A block that is ready to be executed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Executable {
-    pub origin: Origin,
-    pub modal: Modal,
-    /// Its motion on the path.
-    pub way: Option<PathBlock>,
-    /// When its exact stop is reached.
-    pub criterion: Criterion,
-    /// G4 in cycles.
-    pub dwell: u64,
-    pub dwell_turns: Option<(AxisNumber, f64)>,
-    /// POS and POSA.
-    pub positions: Vec<Positioning>,
-    /// G74.
-    pub references: Vec<AxisNumber>,
-    /// What else it does, at its beginning.
-    pub actions: Vec<Action>,
-    /// Auxiliary functions before, during and at the end of the motion.
-    pub outputs: [Package; 3],
-    pub stop: ProgrammedStop,
-    pub end: Option<End>,
-    /// Single block type 1 stops after it.
-    pub is_executable: bool,
-    /// The block, to be prepared again if its axes begin elsewhere; `None` for a calculation.
-    pub block: Option<Box<ReadBlock>>,
-    /// The state behind a calculation, which is a block of its own in single block type 2.
-    pub calculation: Option<Box<Behind>>,
-}
-
-impl Executable {
-    pub(in crate::sinumerik) fn output(&self, time: OutputTime) -> Option<&Package> {
-        let index = match time {
-            OutputTime::Before => 0,
-            OutputTime::During => 1,
-            OutputTime::End => 2,
-            OutputTime::Never => return None,
-        };
-        Some(&self.outputs[index]).filter(|package| !package.is_empty())
-    }
-
-    /// The state of preparation behind it.
-    pub(in crate::sinumerik) fn behind(&self) -> Option<&Behind> {
-        self.block.as_deref().map(|read| &read.behind).or(self.calculation.as_deref())
-    }
-
-    pub(in crate::sinumerik) fn has_outputs(&self) -> bool {
-        self.outputs.iter().any(|package| !package.is_empty())
-    }
-
-    /// Whether it is one action and nothing else.
-    pub(in crate::sinumerik) fn is_only_action(&self) -> bool {
-        self.way.is_none()
-            && self.actions.len() == 1
-            && !self.has_outputs()
-            && self.dwell == 0
-            && self.positions.is_empty()
-            && self.references.is_empty()
-            && self.stop == ProgrammedStop::None
-            && self.end.is_none()
-    }
-
-    /// Whether it only moves the path, so that the path can pass into it without a stop.
-    pub(in crate::sinumerik) fn is_plain(&self) -> bool {
-        self.way.is_some()
-            && self.outputs[0].is_empty()
-            && self.dwell == 0
-            && self.dwell_turns.is_none()
-            && self.positions.is_empty()
-            && self.references.is_empty()
-            && self.actions.is_empty()
-    }
-}
-
-/// G601, G602, G603.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum Criterion {
-    /// Exact stop fine.
-    Fine,
-    /// Exact stop coarse.
-    Coarse,
-    /// The end of interpolation.
-    Interpolation,
-}
-
-/// M0 and M1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum ProgrammedStop {
-    None,
-    /// M0.
-    Always,
-    /// M1, if DB21.DBX0.5 = 1.
-    Optional,
-    /// MD22254.
-    Associated,
-    /// MD22256, if DB21.DBX30.5 = 1.
-    AssociatedOptional,
 }
 
 /// A synchronised action that is evaluated.
@@ -439,6 +324,8 @@ pub(in crate::sinumerik) struct Run {
     pub read_in_disabled: bool,
     /// OVR as a factor.
     pub path_override: f64,
+    /// The axes that the last block which named them has moved on the path: they are no positioning axes.
+    pub programmed_on_path: AxisSet,
     /// What it waits for in other channels.
     pub waits: Option<WaitFor>,
     /// The programs that it starts in other channels, at the end of the stage.

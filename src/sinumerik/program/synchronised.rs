@@ -8,6 +8,7 @@ use crate::nc_program::{
     SystemVariable, Value,
 };
 use crate::sinumerik::alarms::programs as alarms;
+use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::program::auxiliary::Package;
 use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::execution::Sources;
@@ -17,9 +18,10 @@ use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::state::{ActiveAction, Run};
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::single_axis::state::{Order, OrderedBy};
 use crate::sinumerik::state::State;
-use crate::units::Position;
-use crate::variables::{AlarmNumber, Input, Parameter, Place};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{AlarmNumber, Input, Parameter, Place, Quantity};
 
 /// What an action does in this cycle.
 enum Effect {
@@ -28,6 +30,7 @@ enum Effect {
         value: f64,
         dimension: Dimension,
         feed: Option<f64>,
+        id: Option<i32>,
     },
     Output {
         kind: AuxiliaryKind,
@@ -114,8 +117,8 @@ impl State {
     fn take_effect(&mut self, effect: Effect, run: &mut Run, stage: &Stage<'_>) {
         let channel = stage.channel;
         match effect {
-            Effect::Move { axis, value, dimension, feed } => {
-                self.move_command_axis(axis, (value, dimension), feed, run, stage);
+            Effect::Move { axis, value, dimension, feed, id } => {
+                self.move_command_axis((axis, id), (value, dimension), feed, run, stage);
             }
             Effect::Output { kind, extension, value } => {
                 let mut package = Package::new();
@@ -137,14 +140,14 @@ impl State {
                 }
             }
             Effect::ReadInDisable => run.read_in_disabled = true,
-            Effect::Failed(number) => self.raise_of_action(AlarmNumber(number), [Parameter::None; 2], run, stage),
+            Effect::Failed(number) => self.raise_of_action(AlarmNumber(number), [Parameter::None; 3], run, stage),
         }
     }
 
     /// POS: the axis moves beside the path.
     fn move_command_axis(
         &mut self,
-        name: u16,
+        (name, id): (u16, Option<i32>),
         (value, dimension): (f64, Dimension),
         feed: Option<f64>,
         run: &mut Run,
@@ -155,16 +158,20 @@ impl State {
         let Some(place) = axes.place(axis) else {
             // A synchronous axis moves with its leading axis: 14092 as the reason.
             let reason = Parameter::Number(alarms::WRONG_AXIS_TYPE.0.into());
-            self.raise_of_action(alarms::COMMAND_AXIS, [Parameter::Axis(axis), reason], run, stage);
+            self.raise_of_action(alarms::COMMAND_AXIS, [Parameter::Axis(axis), reason, Parameter::None], run, stage);
             return;
         };
-        if !self.owners.is_program_axis(axis, stage.channel) {
-            self.raise_of_action(alarms::COMMAND_AXIS_IN_MOTION, [Parameter::Axis(axis), Parameter::None], run, stage);
+        let of = *self.owners.of(axis);
+        let is_elsewhere = of.channel != stage.channel;
+        let refused =
+            [Parameter::None, id.map_or(Parameter::None, |id| Parameter::Number(id.into())), Parameter::Axis(axis)];
+        if of.holder == Holder::Plc {
+            self.raise_of_action(alarms::COMMAND_AXIS_OF_PLC, refused, run, stage);
             return;
         }
         let is_on_path = !run.path.is_empty() && run.path.direction()[place].abs() > 1e-12;
-        if is_on_path {
-            self.raise_of_action(alarms::COMMAND_AXIS_IN_MOTION, [Parameter::Axis(axis), Parameter::None], run, stage);
+        if is_elsewhere || of.holder == Holder::Program && is_on_path {
+            self.raise_of_action(alarms::COMMAND_AXIS_IN_MOTION, refused, run, stage);
             return;
         }
         let parameters = &stage.parameters.axes[axis];
@@ -175,7 +182,7 @@ impl State {
             .min(parameters.maximum_velocity);
         if velocity <= 0.0 {
             let reason = Parameter::Number(alarms::NO_POSITIONING_VELOCITY.0.into());
-            self.raise_of_action(alarms::COMMAND_AXIS, [Parameter::Axis(axis), reason], run, stage);
+            self.raise_of_action(alarms::COMMAND_AXIS, [Parameter::Axis(axis), reason, Parameter::None], run, stage);
             return;
         }
         let from = self.axes[axis].setpoint.position.increments() as f64;
@@ -183,11 +190,15 @@ impl State {
         let target = geometry::target(wanted, dimension, from, 0.0, parameters.modulo);
         #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
         let target = Position::new(target.round() as i64);
+        if of.holder != Holder::Program {
+            self.order_command_axis(axis, (target, velocity), run, stage);
+            return;
+        }
         if run.positionings.iter().any(|one| one.axis == axis && one.target == target) {
             return;
         }
         run.positionings.retain(|one| one.axis != axis);
-        run.positionings.push(Positioning { axis, target, velocity, waits: false });
+        run.positionings.push(Positioning { axis, target, velocity, waits: false, is_rapid: false });
         run.commanded.set(axis, true);
     }
 
@@ -206,10 +217,40 @@ impl State {
         run.reorganise(end);
     }
 
-    fn raise_of_action(&mut self, number: AlarmNumber, [second, third]: [Parameter; 2], run: &Run, stage: &Stage<'_>) {
+    /// An axis that programs do not have: the action takes it as a command axis. One that has arrived begins again with another target.
+    fn order_command_axis(
+        &mut self,
+        axis: AxisNumber,
+        (target, velocity): (Position, f64),
+        run: &Run,
+        stage: &Stage<'_>,
+    ) {
+        let Some(unit) = self.unit_of(axis) else { return };
+        let known = self.single.axes[axis].order.map_or(self.axes[axis].setpoint.position, |order| order.target);
+        let is_command = self.owners.of(axis).holder == Holder::Command;
+        if is_command && known == target {
+            return;
+        }
+        let inputs = [Input::Length(Quantity::Target, axis, target), Input::None, Input::None];
+        if !is_command {
+            self.hand_over(&unit, stage.channel, Rule::TakenByAction, inputs, run.block_cause, stage.parameters);
+        }
+        let cause = self.log.note(Place::Axis(axis), Rule::OrderStarted, inputs, run.block_cause);
+        let order = Order { target, velocity, by: OrderedBy::Action, cause, begun: false, ending: None };
+        self.begin_order(axis, order);
+        self.single.note_watched(axis);
+    }
+
+    fn raise_of_action(
+        &mut self,
+        number: AlarmNumber,
+        [second, third, fourth]: [Parameter; 3],
+        run: &Run,
+        stage: &Stage<'_>,
+    ) {
         let place = Place::Channel(stage.channel);
         let event = self.log.note_one(place, Rule::ActionRefused, Input::None, run.block_cause);
-        let shown = [Parameter::Channel(stage.channel), second, third, Parameter::None];
+        let shown = [Parameter::Channel(stage.channel), second, third, fourth];
         self.alarms.raise(number, place, shown, event);
     }
 }
@@ -257,9 +298,9 @@ impl ActiveAction {
                     feed = Some(value);
                     None
                 }),
-                MainRunAction::Position { axis, value, dimension } => value
-                    .number(environment)
-                    .map(|value| Some(Effect::Move { axis: axis.0, value, dimension: *dimension, feed: None })),
+                MainRunAction::Position { axis, value, dimension } => value.number(environment).map(|value| {
+                    Some(Effect::Move { axis: axis.0, value, dimension: *dimension, feed: None, id: self.action.id })
+                }),
                 MainRunAction::Auxiliary { kind, extension, value } => value
                     .number(environment)
                     .map(|value| Some(Effect::Output { kind: *kind, extension: extension.unwrap_or(0), value })),

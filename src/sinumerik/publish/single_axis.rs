@@ -17,7 +17,7 @@ impl State {
         rows.bit(axis_from_nck::positioning_axis, self.single.positioning.contains(number), positioning);
         rows.bytes(axis_from_nck::positioning_axis_f_function.byte, &one.feed.to_be_bytes(), positioning);
         let order = || Why::Event(one.cause);
-        let active = one.order.is_some_and(|order| order.by == OrderedBy::Plc);
+        let active = one.spindle.is_some() || one.order.is_some_and(|order| order.by == OrderedBy::Plc);
         rows.bit(axis_from_nck::positioning_not_started, matches!(one.outcome, Outcome::Refused(_)), order);
         rows.bit(axis_from_nck::positioning_error, matches!(one.outcome, Outcome::Failed(_)), order);
         rows.bit(axis_from_nck::position_reached, one.outcome == Outcome::Reached, order);

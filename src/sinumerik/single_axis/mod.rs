@@ -3,7 +3,8 @@
 //! | file | what |
 //! |---|---|
 //! | `state.rs` | an order, how it ends, and the control of the PLC over the axis (28.x) |
-//! | `orders.rs` | the start of the PLC (DB31.DBB32 to 43), and what refuses it: error numbers, 20070, 20071, 22297 |
+//! | `orders.rs` | the start of the PLC (DB31.DBB32 to 43), and what refuses it: error numbers, 20070, 20071 |
+//! | `spindles.rs` | position, rotate and oscillate a spindle by the PLC; 22297 |
 //! | `independence.rs` | 28.7, 28.6, 28.2, 28.1 and 63.x: the axis is taken out of the stop and the reset of its channel |
 //! | `motion.rs` | the stage: holds, stops, the way to the target, the end |
 //!
@@ -24,4 +25,5 @@
 pub(super) mod independence;
 pub(super) mod motion;
 pub(super) mod orders;
+pub(super) mod spindles;
 pub(super) mod state;

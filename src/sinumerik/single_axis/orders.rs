@@ -28,9 +28,6 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, Quantity, RaisedAlarm};
 
-/// The axis is not a spindle: code of 22297.
-const NO_SPINDLE: i64 = 6;
-
 /// Why a start is refused: the error number, what was tested, and the limit behind which the target is.
 struct Refusal {
     error: u8,
@@ -47,13 +44,7 @@ impl Refusal {
 impl State {
     /// The start bits of FC 18.
     pub(super) fn watch_start(&mut self, axis: AxisNumber, signals: &AxisToNck, parameters: &Parameters) {
-        let spindle = signals.start_spindle_positioning()
-            || signals.start_spindle_rotation()
-            || signals.start_spindle_oscillation();
-        if spindle && !std::mem::replace(&mut self.single.axes[axis].spindle_was, spindle) {
-            self.refuse_spindle(axis, signals);
-        }
-        self.single.axes[axis].spindle_was = spindle;
+        self.watch_spindle_order(axis, signals, parameters);
         let start = signals.start_positioning_axis();
         let was = std::mem::replace(&mut self.single.axes[axis].start_was, start);
         let starts = axis_signal(axis, axis_to_nck::start_positioning_axis, start);
@@ -62,24 +53,6 @@ impl State {
         } else if was && !start {
             self.withdraw(axis, starts);
         }
-    }
-
-    /// A spindle function of FC 18 for an axis that is no spindle.
-    fn refuse_spindle(&mut self, axis: AxisNumber, signals: &AxisToNck) {
-        let pressed = if signals.start_spindle_positioning() {
-            axis_to_nck::start_spindle_positioning
-        } else if signals.start_spindle_rotation() {
-            axis_to_nck::start_spindle_rotation
-        } else {
-            axis_to_nck::start_spindle_oscillation
-        };
-        let input = axis_signal(axis, pressed, true);
-        let event = self.log.note_one(Place::Axis(axis), Rule::NoSpindle, input, EventId::NONE);
-        let channel = Parameter::Channel(self.owners.of(axis).channel);
-        let shown = [channel, Parameter::Axis(axis), Parameter::Number(NO_SPINDLE), Parameter::None];
-        self.alarms.raise(alarms::SPINDLE_START_REFUSED, Place::Axis(axis), shown, event);
-        let one = &mut self.single.axes[axis];
-        (one.outcome, one.cause) = (Outcome::Refused(100), event);
     }
 
     fn start_order(&mut self, axis: AxisNumber, signals: &AxisToNck, parameters: &Parameters, starts: Input) {

@@ -30,6 +30,17 @@ pub(in crate::sinumerik) struct Order {
     pub ending: Option<Outcome>,
 }
 
+/// A function of FC 18 for a spindle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum SpindleOrder {
+    /// To an angle.
+    Position,
+    /// With a speed.
+    Rotate,
+    /// To and fro.
+    Oscillate,
+}
+
 /// How an order ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum Outcome {
@@ -74,6 +85,8 @@ pub(in crate::sinumerik) struct Independence {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct SingleAxis {
     pub order: Option<Order>,
+    /// The function of a spindle that runs.
+    pub spindle: Option<SpindleOrder>,
     pub outcome: Outcome,
     /// The event behind order and outcome.
     pub cause: EventId,
@@ -86,6 +99,8 @@ pub(in crate::sinumerik) struct SingleAxis {
     /// Start, the starts of a spindle, and 2.2 in the last cycle.
     pub start_was: bool,
     pub spindle_was: bool,
+    /// Its stops.
+    pub spindle_stop_was: bool,
     pub delete_was: bool,
     pub independence: Independence,
 }
@@ -112,12 +127,16 @@ impl SingleAxes {
     /// Updates whether the stage looks at an axis in every cycle.
     pub(in crate::sinumerik) fn note_watched(&mut self, axis: AxisNumber) {
         let one = &self.axes[axis];
-        self.watched.set(axis, one.order.is_some() || one.limit.is_some() || one.independence.taken);
+        self.watched
+            .set(axis, one.order.is_some() || one.spindle.is_some() || one.limit.is_some() || one.independence.taken);
     }
 
     /// `$AA_SNGLAX_STAT`.
     pub(in crate::sinumerik) fn status(&self, axis: AxisNumber, is_single: bool) -> i32 {
         let one = &self.axes[axis];
+        if one.spindle.is_some() {
+            return 4;
+        }
         match (one.order, one.outcome) {
             (Some(_), _) if one.independence.stopped => 3,
             (Some(_), _) => 4,

@@ -26,7 +26,7 @@ use crate::variables::{EventId, Input, Parameter, Place};
 
 impl Spindle {
     /// M40 to M45, and S while M40 is active. Returns whether another stage is wanted.
-    pub(super) fn want_stage(&mut self, m: Option<u16>, own: &SpindleParameters) -> bool {
+    pub(in crate::sinumerik) fn want_stage(&mut self, m: Option<u16>, own: &SpindleParameters) -> bool {
         match m {
             Some(40) => self.is_automatic = true,
             Some(stage @ 41..=45) => {
@@ -63,7 +63,7 @@ impl SpindleParameters {
 
 impl State {
     /// A program wants a stage: the change begins with this event.
-    pub(super) fn begin_gear_change(&mut self, number: AxisNumber, event: EventId) {
+    pub(in crate::sinumerik) fn begin_gear_change(&mut self, number: AxisNumber, event: EventId) {
         if let Some(spindle) = self.spindles[number].as_deref_mut()
             && spindle.change.is_none()
         {
@@ -221,6 +221,7 @@ fn plc_direction(signals: &AxisToNck) -> i8 {
 impl Spindle {
     /// 84.6.
     pub(in crate::sinumerik) fn oscillates(&self) -> bool {
-        self.mode == Mode::Control && self.change.is_some_and(|change| change.oscillation.is_some())
+        let by_change = self.change.is_some_and(|change| change.oscillation.is_some());
+        self.mode == Mode::Control && (by_change || self.plc_oscillation.is_some())
     }
 }

@@ -13,6 +13,7 @@
 //! | `turning.rs` | the speed in a cycle: override, limits, what holds it; keys in JOG; the zero mark |
 //! | `stops.rs` | what ends the turning: RESET, the end of a program, alarms, spindle reset; NC stop axes plus spindles |
 //! | `gear.rs` | M40 to M45: the dialogue of a gear change with the PLC, oscillation |
+//! | `oscillation.rs` | oscillation by the PLC |
 //! | `positioning.rs`, `target.rs` | SPOS, SPOSA, M19, WAITS, M70; the next position of an angle |
 //! | `waiting.rs` | the path waits for the speed (MD35500) |
 //!
@@ -26,6 +27,7 @@
 mod control_loop;
 pub(super) mod functions;
 pub(super) mod gear;
+mod oscillation;
 pub(super) mod positioning;
 pub(super) mod state;
 pub(super) mod stops;

@@ -29,16 +29,17 @@ use crate::variables::{EventId, Input, Place, Quantity};
 const SEARCH: Position = Position::new(720_000_000);
 
 impl State {
-    /// SPOS, SPOSA, M19: a program orders a position.
+    /// SPOS, SPOSA, M19, or the PLC: the rule orders a position.
     pub(in crate::sinumerik) fn position_spindle(
         &mut self,
         number: AxisNumber,
         (angle, dimension): (f64, Dimension),
+        rule: Rule,
         parameters: &Parameters,
         cause: EventId,
     ) {
         let place = Place::Axis(number);
-        let event = self.log.note_plain(place, Rule::SpindlePositioned, cause);
+        let event = self.log.note_plain(place, rule, cause);
         if self.axes[number].measuring_system.is_none() || parameters.axes[number].encoders == 0 {
             let none = axis_signal(number, axis_from_nck::position_measuring_system_1_activated, false);
             let event = self.log.note_one(place, Rule::SpindleWithoutEncoder, none, event);
@@ -47,7 +48,7 @@ impl State {
         }
         if let Some(spindle) = self.spindles[number].as_deref_mut() {
             let phase = Phase::Searching { from: None };
-            let positioning = Positioning { angle: Position::from_user(angle), dimension, phase };
+            let positioning = Positioning { angle: Position::from_user(angle), dimension, speed: None, phase };
             (spindle.mode, spindle.mode_cause) = (Mode::Positioning(positioning), event);
             (spindle.direction, spindle.stopped, spindle.cause) = (0, false, event);
             spindle.position_cause = event;
@@ -68,10 +69,11 @@ impl State {
         let holder = self.spindle_holder(unit, &spindle, own, to_nck);
         let factor = if holder.is_some() { 0.0 } else { self.spindle_factor(number, own, signals) };
         let stage = own.stage(spindle.gear_stage);
-        let velocity = stage.positioning_speed.min(own.speed_limit) * factor;
+        let positioning_speed = order.speed.unwrap_or(stage.positioning_speed);
+        let velocity = positioning_speed.min(own.speed_limit) * factor;
         // A spindle whose setpoint is not output (1.3, program test) passes no zero mark.
         let referenced = self.axes[number].is_referenced() || self.axes[number].signals.disabled_at.is_some();
-        let slow = self.axes[number].setpoint.velocity().abs() <= stage.positioning_speed * 1.001;
+        let slow = self.axes[number].setpoint.velocity().abs() <= positioning_speed * 1.001;
         if let Phase::Searching { from } = order.phase {
             if referenced && slow {
                 order.phase = Phase::Going { target: self.begin_position_control(number, &order, own, parameters) };

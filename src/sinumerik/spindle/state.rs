@@ -24,6 +24,8 @@ pub(in crate::sinumerik) struct Positioning {
     /// The angle, or the distance with IC.
     pub angle: Position,
     pub dimension: Dimension,
+    /// In increments per second; `None`: MD35300.
+    pub speed: Option<f64>,
     pub phase: Phase,
 }
 
@@ -65,6 +67,10 @@ pub(in crate::sinumerik) struct Spindle {
     pub change: Option<GearChange>,
     /// The event behind 82.x.
     pub gear_cause: EventId,
+    /// The PLC lets it oscillate: the direction, and the cycles left in it.
+    pub plc_oscillation: Option<(i8, u64)>,
+    /// Something has ended the oscillation by the PLC.
+    pub is_ended: bool,
     /// The event behind 84.6.
     pub oscillation_cause: EventId,
     /// M3 is +1, M4 is −1, M5 is 0.
@@ -114,6 +120,8 @@ impl Default for Spindle {
             is_automatic: false,
             change: None,
             gear_cause: EventId::NONE,
+            plc_oscillation: None,
+            is_ended: false,
             oscillation_cause: EventId::NONE,
             direction: 0,
             speed: 0.0,

@@ -31,7 +31,7 @@ impl State {
                     spindle.cause = event;
                 }
                 spindle.leave_positioning(event);
-                (spindle.direction, spindle.stopped) = (0, false);
+                (spindle.direction, spindle.stopped, spindle.is_ended) = (0, false, true);
                 if !speed_stays {
                     spindle.speed = 0.0;
                 }
@@ -76,7 +76,7 @@ impl State {
             None
         };
         if let Some((rule, input, cause)) = ends {
-            (spindle.direction, spindle.stopped) = (0, false);
+            (spindle.direction, spindle.stopped, spindle.is_ended) = (0, false, true);
             if programmed {
                 spindle.cause = self.log.now(place, cause, rule, [input, Input::None, Input::None]);
             }

@@ -41,6 +41,10 @@ impl State {
                 if let Some(change) = spindle.change {
                     return self.run_gear_change(unit, change, own, (parameters, to_nck));
                 }
+                if self.plc_oscillates(number) {
+                    return self.run_plc_oscillation(unit, own, (parameters, to_nck));
+                }
+                self.end_plc_oscillation(number);
             }
             Mode::Positioning(order) => return self.run_positioning(unit, order, own, (parameters, to_nck)),
             Mode::Axis if self.axes[number].speed_controlled => {}

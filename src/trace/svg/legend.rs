@@ -67,15 +67,7 @@ impl Legend {
     }
 
     pub(super) fn draw(&self, drawing: &mut Drawing, waves: &Waves) {
-        drawing.y += 60;
-        for (index, (cycle, text)) in self.notes.iter().enumerate() {
-            drawing.y += LINE;
-            let y = drawing.y;
-            drawing.rect("flag", (MARGIN, y - 120), (FLAG + 30, FLAG), "");
-            drawing.text("flag-text", (MARGIN + 90, y - 10), &(index + 1).to_string());
-            drawing.text("small right", (MARGIN + 820, y), &format!("{} s", waves.time(*cycle)));
-            paragraph(drawing, text);
-        }
+        self.draw_notes(drawing, waves);
         if !self.notes.is_empty() && !self.alarms.is_empty() {
             drawing.y += 60;
         }
@@ -86,6 +78,19 @@ impl Legend {
             paragraph(drawing, text);
         }
         colours(drawing, waves);
+    }
+
+    /// The notes with the numbers of their flags.
+    pub(super) fn draw_notes(&self, drawing: &mut Drawing, waves: &Waves) {
+        drawing.y += 60;
+        for (index, (cycle, text)) in self.notes.iter().enumerate() {
+            drawing.y += LINE;
+            let y = drawing.y;
+            drawing.rect("flag", (MARGIN, y - 120), (FLAG + 30, FLAG), "");
+            drawing.text("flag-text", (MARGIN + 90, y - 10), &(index + 1).to_string());
+            drawing.text("small right", (MARGIN + 820, y), &format!("{} s", waves.time(*cycle)));
+            paragraph(drawing, text);
+        }
     }
 }
 

@@ -5,12 +5,13 @@
 
 mod drawing;
 mod legend;
+mod plot;
 mod rows;
 mod scale;
 mod style;
 
-use super::Head;
 use super::waves::{WaveKind, Waves};
+use super::{Head, Limit};
 use drawing::{Drawing, GAP, LETTER, MARGIN, SMALL_LETTER, WIDTH, escaped, px, width_of, wrapped};
 use legend::Legend;
 use scale::Scale;
@@ -37,6 +38,33 @@ pub(super) fn document(waves: &Waves, head: &Head) -> String {
     drawing.y = bottom;
     scale.draw_axis(&mut drawing);
     legend.draw(&mut drawing, waves);
+    file(&drawing, head)
+}
+
+/// Curves in panels, each with its own scale: the number of its rows, in order, and its limits.
+pub(super) fn plot(waves: &Waves, panels: &[(usize, &[Limit])], head: &Head) -> String {
+    let scale = Scale::new(waves, plot::LEFT, WIDTH - MARGIN);
+    let mut drawing = Drawing { text: String::new(), y: MARGIN, left: plot::LEFT };
+    title(&mut drawing, head);
+    let legend = Legend::new(waves);
+    let top = drawing.y;
+    drawing.y += legend.lane_height(&scale);
+    let first_panel = drawing.y;
+    let bottom = first_panel + plot::height(panels.len());
+    scale.draw_grid(&mut drawing, first_panel, bottom);
+    legend.draw_flags(&mut drawing, &scale, top, bottom);
+    plot::draw(&mut drawing, waves, panels, &scale);
+    scale.draw_breaks(&mut drawing, first_panel, bottom);
+    drawing.y = bottom;
+    scale.draw_axis(&mut drawing);
+    plot::names(&mut drawing, waves, panels);
+    legend.draw_notes(&mut drawing, waves);
+    drawing.y += 140;
+    file(&drawing, head)
+}
+
+/// The drawing as a file.
+fn file(drawing: &Drawing, head: &Head) -> String {
     let height = px(drawing.y + MARGIN - 60);
     let width = px(WIDTH);
     format!(

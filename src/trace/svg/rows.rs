@@ -201,7 +201,7 @@ fn number(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, midd
 
 /// The value of a curve, in millionths.
 #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate")]
-fn millionths(level: Level) -> i64 {
+pub(super) fn millionths(level: Level) -> i64 {
     match level {
         Level::Value(value) => value,
         Level::Signal(Shown::Number(number)) => (number * 1e6).round() as i64,
@@ -235,6 +235,16 @@ fn curve(drawing: &mut Drawing, wave: &Wave, scale: &Scale, middle: Tenths) {
     for edge in [high, low] {
         drawing.line("grid", (scale.left() - 60, edge), (scale.left(), edge));
     }
+    let path = path(wave, scale, y);
+    let class = if wave.kind == WaveKind::Value { "value" } else { colour(wave) };
+    let _ = writeln!(drawing.text, r#"<path class="wave {class}" d="{path}"><title>{}</title></path>"#, {
+        let range = format!("{}: {} to {} {}", name(wave), decimals(least), decimals(most), wave.beside);
+        escaped(range.trim_end())
+    });
+}
+
+/// The curve of a row as the path of an element.
+pub(super) fn path(wave: &Wave, scale: &Scale, y: impl Fn(i64) -> Tenths) -> String {
     let mut points = vec![(scale.left(), y(millionths(wave.start)))];
     let mut last = (0, wave.start);
     for step in &wave.changes {
@@ -250,11 +260,7 @@ fn curve(drawing: &mut Drawing, wave: &Wave, scale: &Scale, middle: Tenths) {
     for (x, y) in thinned(&points) {
         let _ = write!(path, "{}{} {}", if path.is_empty() { 'M' } else { 'L' }, px(x), px(y));
     }
-    let class = if wave.kind == WaveKind::Value { "value" } else { colour(wave) };
-    let _ = writeln!(drawing.text, r#"<path class="wave {class}" d="{path}"><title>{}</title></path>"#, {
-        let range = format!("{}: {} to {} {}", name(wave), decimals(least), decimals(most), wave.beside);
-        escaped(range.trim_end())
-    });
+    path
 }
 
 /// Of the points in one pixel column: the first, the lowest, the highest, the last.

@@ -237,8 +237,8 @@ fn time(nanos: u64) -> Time {
     Time::from_nanos(i64::try_from(nanos).unwrap_or(i64::MAX))
 }
 
-/// The next of 1, 2, 5, 10 … nanoseconds.
-fn round_step(least: i128) -> i128 {
+/// The next of 1, 2, 5, 10 … units.
+pub(super) fn round_step(least: i128) -> i128 {
     let mut decade = 1;
     loop {
         for step in [1, 2, 5] {

@@ -19,6 +19,7 @@ text { font-family: "DejaVu Sans Mono", Menlo, Consolas, "Liberation Mono", mono
 .still { stroke: #8a95a3; } .still-fill { fill: #8a95a3; fill-opacity: .18; }
 .value { stroke: #7a3fb0; }
 .zero { stroke: #b9a3cf; stroke-width: 1; stroke-dasharray: 2 3; fill: none; }
+.level { stroke: #b01c30; stroke-width: 1.2; stroke-dasharray: 7 4; fill: none; }
 .alarm { fill: #c8283c; fill-opacity: .85; }
 .alarm-text { fill: #ffffff; font-weight: 600; font-size: 10px; }
 .alarm-name { fill: #b01c30; }
@@ -39,6 +40,7 @@ text { fill: #dbe2ec; }
 .still { stroke: #768496; } .still-fill { fill: #768496; }
 .value { stroke: #c39af0; }
 .zero { stroke: #5d4a78; }
+.level { stroke: #ff8b98; }
 .alarm { fill: #e0475b; }
 .alarm-text { fill: #ffffff; }
 .alarm-name { fill: #ff8b98; }

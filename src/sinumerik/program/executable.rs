@@ -1,0 +1,147 @@
+//! A block that is ready to be executed, and the state of preparation behind it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::path::{PathBlock, PerPathAxis};
+use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin};
+use crate::sinumerik::parameters::programs::OutputTime;
+use crate::sinumerik::program::auxiliary::Package;
+use crate::sinumerik::program::positioning::Positioning;
+use crate::units::{AxisNumber, AxisSet};
+
+/// The state of preparation behind a block: from there it can read on once more.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Behind {
+    pub interpreter: Interpreter,
+    pub axis_feeds: Vec<(AxisNumber, f64)>,
+    pub path_override: f64,
+    pub programmed_on_path: AxisSet,
+    /// Where the axes of the path are then.
+    pub end: PerPathAxis,
+}
+
+/// A block that was read, with the state behind it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ReadBlock {
+    pub block: Block,
+    pub behind: Behind,
+}
+
+/// A block that is ready to be executed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Executable {
+    pub origin: Origin,
+    pub modal: Modal,
+    /// Its motion on the path.
+    pub way: Option<PathBlock>,
+    /// When its exact stop is reached.
+    pub criterion: Criterion,
+    /// G4 in cycles.
+    pub dwell: u64,
+    pub dwell_turns: Option<(AxisNumber, f64)>,
+    /// POS and POSA.
+    pub positions: Vec<Positioning>,
+    /// G74.
+    pub references: Vec<AxisNumber>,
+    /// What else it does, at its beginning.
+    pub actions: Vec<Action>,
+    /// Auxiliary functions before, during and at the end of the motion.
+    pub outputs: [Package; 3],
+    pub stop: ProgrammedStop,
+    pub end: Option<End>,
+    /// Single block type 1 stops after it.
+    pub is_executable: bool,
+    /// The block, to be prepared again if its axes begin elsewhere; `None` for a calculation.
+    pub block: Option<Box<ReadBlock>>,
+    /// The state behind a calculation, which is a block of its own in single block type 2.
+    pub calculation: Option<Box<Behind>>,
+}
+
+impl Executable {
+    pub(in crate::sinumerik) fn new(origin: Origin, modal: Modal) -> Self {
+        Self {
+            origin,
+            modal,
+            way: None,
+            criterion: Criterion::Fine,
+            dwell: 0,
+            dwell_turns: None,
+            positions: Vec::new(),
+            references: Vec::new(),
+            actions: Vec::new(),
+            outputs: Default::default(),
+            stop: ProgrammedStop::None,
+            end: None,
+            is_executable: false,
+            block: None,
+            calculation: None,
+        }
+    }
+
+    pub(in crate::sinumerik) fn output(&self, time: OutputTime) -> Option<&Package> {
+        let index = match time {
+            OutputTime::Before => 0,
+            OutputTime::During => 1,
+            OutputTime::End => 2,
+            OutputTime::Never => return None,
+        };
+        Some(&self.outputs[index]).filter(|package| !package.is_empty())
+    }
+
+    /// The state of preparation behind it.
+    pub(in crate::sinumerik) fn behind(&self) -> Option<&Behind> {
+        self.block.as_deref().map(|read| &read.behind).or(self.calculation.as_deref())
+    }
+
+    pub(in crate::sinumerik) fn has_outputs(&self) -> bool {
+        self.outputs.iter().any(|package| !package.is_empty())
+    }
+
+    /// Whether it is one action and nothing else.
+    pub(in crate::sinumerik) fn is_only_action(&self) -> bool {
+        self.way.is_none()
+            && self.actions.len() == 1
+            && !self.has_outputs()
+            && self.dwell == 0
+            && self.positions.is_empty()
+            && self.references.is_empty()
+            && self.stop == ProgrammedStop::None
+            && self.end.is_none()
+    }
+
+    /// Whether it only moves the path, so that the path can pass into it without a stop.
+    pub(in crate::sinumerik) fn is_plain(&self) -> bool {
+        self.way.is_some()
+            && self.outputs[0].is_empty()
+            && self.dwell == 0
+            && self.dwell_turns.is_none()
+            && self.positions.is_empty()
+            && self.references.is_empty()
+            && self.actions.is_empty()
+    }
+}
+
+/// G601, G602, G603.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Criterion {
+    /// Exact stop fine.
+    Fine,
+    /// Exact stop coarse.
+    Coarse,
+    /// The end of interpolation.
+    Interpolation,
+}
+
+/// M0 and M1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum ProgrammedStop {
+    None,
+    /// M0.
+    Always,
+    /// M1, if DB21.DBX0.5 = 1.
+    Optional,
+    /// MD22254.
+    Associated,
+    /// MD22256, if DB21.DBX30.5 = 1.
+    AssociatedOptional,
+}
