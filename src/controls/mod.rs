@@ -79,7 +79,34 @@ static CONTROLS: &[Entry] = &[
         read: |path| Ok(Box::new(ParameterLists::load(path)?)),
         examine: isg::examine,
         read_contents: |lists| Ok(Box::new(ParameterLists::read(lists)?)),
-        built_in: &[],
+        built_in: &[
+            BuiltIn {
+                name: "isg_soft_gantry",
+                files: &[
+                    ("axis_1.lis", include_bytes!("../../machine_data/isg_soft_gantry/axis_1.lis")),
+                    ("axis_2.lis", include_bytes!("../../machine_data/isg_soft_gantry/axis_2.lis")),
+                    ("axis_3.lis", include_bytes!("../../machine_data/isg_soft_gantry/axis_3.lis")),
+                    ("axis_8.lis", include_bytes!("../../machine_data/isg_soft_gantry/axis_8.lis")),
+                    ("axis_9.lis", include_bytes!("../../machine_data/isg_soft_gantry/axis_9.lis")),
+                    ("channel_1.lis", include_bytes!("../../machine_data/isg_soft_gantry/channel_1.lis")),
+                ],
+                plant: ("plant.toml", include_str!("../../machine_data/isg_soft_gantry/plant.toml")),
+            },
+            BuiltIn {
+                name: "twincat_gantry",
+                files: &[
+                    ("axis_1.lis", include_bytes!("../../machine_data/twincat_gantry/axis_1.lis")),
+                    ("axis_2.lis", include_bytes!("../../machine_data/twincat_gantry/axis_2.lis")),
+                    ("axis_3.lis", include_bytes!("../../machine_data/twincat_gantry/axis_3.lis")),
+                    ("axis_4.lis", include_bytes!("../../machine_data/twincat_gantry/axis_4.lis")),
+                    ("axis_5.lis", include_bytes!("../../machine_data/twincat_gantry/axis_5.lis")),
+                    ("axis_6.lis", include_bytes!("../../machine_data/twincat_gantry/axis_6.lis")),
+                    ("axis_7.lis", include_bytes!("../../machine_data/twincat_gantry/axis_7.lis")),
+                    ("channel_1.lis", include_bytes!("../../machine_data/twincat_gantry/channel_1.lis")),
+                ],
+                plant: ("plant.toml", include_str!("../../machine_data/twincat_gantry/plant.toml")),
+            },
+        ],
     },
 ];
 

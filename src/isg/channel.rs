@@ -230,6 +230,8 @@ impl Channel {
         let shown = of_path.and_then(|number| self.blocks.iter().find(|(other, _)| *other == number));
         match self.task {
             Task::Idle => 0,
+            // The block that has ended, although others may be on the path already.
+            Task::Stands => self.shown,
             _ => shown.map_or(self.shown, |(_, shown)| *shown),
         }
     }

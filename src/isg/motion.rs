@@ -77,8 +77,10 @@ impl State {
 
     /// The velocity command of an axis; `None` without power.
     pub(super) fn velocity_command(&mut self, number: AxisNumber, count: Position) -> Option<f64> {
+        // After a restart there is no setpoint before the encoders have reported.
+        let starts = self.starts;
         let axis = &mut self.axes[number];
-        if !axis.exists || !axis.is_powered() {
+        if starts || !axis.exists || !axis.is_powered() {
             return None;
         }
         let actual = count + axis.shift;

@@ -258,7 +258,7 @@ impl State {
                 return;
             }
             path.go_on();
-            channel.blocks.pop_front();
+            channel.pass_blocks(1);
             if is_single && channel.task == Task::Runs {
                 (channel.task, channel.fetched_one) = (Task::Stands, false);
             }
@@ -266,9 +266,7 @@ impl State {
         }
         let before = path.position();
         let moved = path.step(Overrides { feed: factor, rapid: factor.min(1.0) }, cycle);
-        for _ in 0..moved.ended {
-            channel.blocks.pop_front();
-        }
+        channel.pass_blocks(moved.ended);
         let axes = channel.path_axes.clone();
         for (place, axis) in axes.into_iter().enumerate() {
             #[expect(clippy::cast_possible_truncation, reason = "positions are within reach; the cast saturates")]
@@ -359,6 +357,15 @@ impl Channel {
         self.manual.clear();
         if !self.retains_axes {
             self.axes = self.configured.clone();
+        }
+    }
+
+    /// Blocks of the path have ended; the last one is shown until the next one begins.
+    fn pass_blocks(&mut self, count: usize) {
+        for _ in 0..count {
+            if let Some((_, shown)) = self.blocks.pop_front() {
+                self.shown = shown;
+            }
         }
     }
 

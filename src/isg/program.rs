@@ -92,20 +92,22 @@ impl State {
                 }
                 return;
             }
-            if channel.fetched_one && channel.inputs.single_block {
+            if let Some(block) = channel.prepared.take() {
+                // A coupling begins at rest: the lag of a movement before it is no difference (SG-15).
+                let couples = matches!(block.command, Some(Command::LinkOn(_) | Command::Gantry { is_on: true, .. }));
+                if !is_executed || couples && !self.has_settled(index) {
+                    self.channels[index].prepared = Some(block);
+                    return;
+                }
+                self.execute(index, &block);
+                continue;
+            }
+            if channel.fetched_one && channel.inputs.single_block && !channel.ended {
                 if is_executed {
                     channel.fetched_one = false;
                     channel.task = Task::Stands;
                 }
                 return;
-            }
-            if let Some(block) = channel.prepared.take() {
-                if !is_executed {
-                    channel.prepared = Some(block);
-                    return;
-                }
-                self.execute(index, &block);
-                continue;
             }
             if let Some(fault) = channel.fault.take() {
                 if !is_executed {
@@ -139,11 +141,12 @@ impl State {
         if !channel.restores || channel.task != Task::Runs {
             return true;
         }
-        if channel.groups.iter().any(|group| group.ending) {
+        let waits = channel.groups.iter().any(|group| group.ending);
+        if waits || !channel.restored.is_empty() && !self.has_settled(index) {
             return false;
         }
-        channel.restores = false;
-        let cause = channel.causes.program;
+        self.channels[index].restores = false;
+        let cause = self.channels[index].causes.program;
         let restored = self.restore_groups(index, cause);
         if !restored {
             self.abort_program(index, cause);
