@@ -66,7 +66,7 @@ mod tests {
 
     fn read(machine: &str, compatibility: &str) -> Result<Strobe, Problem> {
         let table = |text: &str| Table::parse(text, "plant.toml").unwrap();
-        Strobe::read(&mut Settings { machine: table(machine), compatibility: table(compatibility) })
+        Strobe::read(&mut Settings { machine: table(machine), compatibility: table(compatibility), control: table("") })
     }
 
     #[test]
