@@ -81,6 +81,17 @@ static CONTROLS: &[Entry] = &[
         read_contents: |lists| Ok(Box::new(ParameterLists::read(lists)?)),
         built_in: &[
             BuiltIn {
+                name: "isg_hard_gantry",
+                files: &[
+                    ("axis_1.lis", include_bytes!("../../machine_data/isg_hard_gantry/axis_1.lis")),
+                    ("axis_2.lis", include_bytes!("../../machine_data/isg_hard_gantry/axis_2.lis")),
+                    ("axis_5.lis", include_bytes!("../../machine_data/isg_hard_gantry/axis_5.lis")),
+                    ("axis_6.lis", include_bytes!("../../machine_data/isg_hard_gantry/axis_6.lis")),
+                    ("channel_1.lis", include_bytes!("../../machine_data/isg_hard_gantry/channel_1.lis")),
+                ],
+                plant: ("plant.toml", include_str!("../../machine_data/isg_hard_gantry/plant.toml")),
+            },
+            BuiltIn {
                 name: "isg_soft_gantry",
                 files: &[
                     ("axis_1.lis", include_bytes!("../../machine_data/isg_soft_gantry/axis_1.lis")),

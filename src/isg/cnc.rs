@@ -376,10 +376,15 @@ impl Control for Cnc {
     }
 }
 
+/// Letters of an entry in a message; of a longer name the end, with the line.
+const ENTRY: usize = 24;
+
 /// The entry of a message: name of the file and line. A long path would leave no room for them.
 fn place_of(message: &Message) -> String {
     let place = message.place.to_string();
-    place.rsplit(['/', '\\']).next().unwrap_or_default().to_owned()
+    let place = place.rsplit(['/', '\\']).next().unwrap_or_default();
+    let beyond = place.chars().count().saturating_sub(ENTRY);
+    place.chars().skip(beyond).collect()
 }
 
 fn foreign(what: &str, cure: &str) -> Problem {

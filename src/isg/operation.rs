@@ -93,8 +93,8 @@ impl State {
         // O-15: what a reset does not remove stays.
         let mut cleared = Vec::new();
         for axis in &members {
-            let stays = self.coupled_with(*axis).iter().any(|member| self.is_beyond(*member))
-                || self.axes[*axis].feedback.drive_fault;
+            let has_fault = |member: &AxisNumber| self.is_beyond(*member) || self.axes[*member].feedback.drive_fault;
+            let stays = self.coupled_with(*axis).iter().any(has_fault);
             if self.axes[*axis].error == Some(AxisError::Resettable) && !stays {
                 cleared.push(*axis);
             }

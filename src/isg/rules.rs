@@ -44,7 +44,7 @@ rules! {
     StageTwo: "HG-07", "the gantry difference exceeds the limit that no reset clears (P-AXIS-00071)";
     SoftStageOne: "SG-04", "the difference of a coupled axis exceeds limit_1";
     SoftStageTwo: "SG-04", "the difference of a coupled axis exceeds limit_2";
-    Cleared: "HG-07", "a reset clears the error: the difference is within its limit";
+    Cleared: "HG-07", "a reset clears the error: no difference is beyond a limit, or it is being cleared";
     ClearingBegins: "HG-12", "the gantry difference is cleared: the slave moves at P-AXIS-00075";
     ClearingEnds: "HG-12", "the distance of slave and master is the offset again";
     CombinationStops: "HG-13", "an error of one axis stops the whole combination at a_emergency";

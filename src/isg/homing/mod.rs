@@ -193,7 +193,8 @@ impl State {
             return false;
         }
         run.end(&mut self.log.taken.0[charts::HOMING]);
-        axis.run = None;
+        // The movement back was in the old reference.
+        (axis.run, axis.motion) = (None, None);
         let event = self.log.note_plain(Place::Axis(number), Why::Homed, run.cause);
         self.axes[number].causes.homing = event;
         self.refer(number, homing.position - mark, event);
