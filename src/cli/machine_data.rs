@@ -8,6 +8,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 
+use super::alarms::texts_of;
 use super::list::{Format, List};
 use super::output::Output;
 use crate::control::{Class, DatumRow, Examined, Finding, Texts, summary};
@@ -45,9 +46,16 @@ struct Checked {
 }
 
 /// Prints the catalogue.
-pub(super) fn list(filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
+pub(super) fn list(filter: Option<&str>, profile: Option<&str>, format: Format, output: &mut Output) -> u8 {
+    let texts = match texts_of(profile) {
+        Ok(texts) => texts,
+        Err(problem) => {
+            output.error(problem);
+            return 2;
+        }
+    };
     let heads = &["number", "name", "unit", "range", "default", "takes effect", "modelled", "meaning"];
-    let rows = controls::texts().flat_map(Texts::machine_data).map(row).collect();
+    let rows = texts.into_iter().flat_map(Texts::machine_data).map(row).collect();
     let mut list = List { heads, rows };
     let found = match filter {
         // A number is that of a datum, not a part of a range or of a default.
@@ -270,8 +278,13 @@ fn opened(machine: Machine, mut summary: Vec<String>, ignored: Vec<String>) -> C
     let mut trial = machine;
     trial.step();
     for alarm in trial.variables().alarms.iter() {
-        let what = format!("{}: {}", trial.alarm_name(alarm.number), trial.alarm_text(alarm));
-        if !findings.iter().any(|finding| finding.what == what) {
+        let name = trial.alarm_name(alarm.number);
+        let what = format!("{name}: {}", trial.alarm_text(alarm));
+        // A control may have found the same in its files, with more words: `70124 …`.
+        let is_same = |finding: &Finding| {
+            finding.class == Class::AlarmAtPowerOn && finding.what.split(' ').next() == Some(name.as_str())
+        };
+        if !findings.iter().any(|finding| finding.what == what || is_same(finding)) {
             findings.push(Finding::new(Class::AlarmAtPowerOn, what, ""));
         }
     }

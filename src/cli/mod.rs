@@ -111,7 +111,7 @@ enum Command {
         /// A machine whose axes, channels and names are listed: a directory, an archive, or the name of a built-in machine.
         #[arg(long, value_name = "MACHINE")]
         machine: Option<PathBuf>,
-        /// Profile of the addresses: 840d_sl or 828d.
+        /// Profile of the addresses: 840d_sl, 828d, or isg for the ISG kernel and TwinCAT CNC.
         #[arg(long, default_value = controls::default_profile())]
         profile: String,
         /// Output format.
@@ -122,6 +122,9 @@ enum Command {
     Alarms {
         /// Shows only alarms with this text in their row.
         filter: Option<String>,
+        /// Shows only those of the control with this profile: 840d_sl, 828d, isg.
+        #[arg(long, value_name = "PROFILE")]
+        profile: Option<String>,
         /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
@@ -262,6 +265,9 @@ enum MachineData {
         /// A number, or a text: only data with this text in their row.
         #[arg(value_name = "TEXT|NUMBER")]
         filter: Option<String>,
+        /// Shows only those of the control with this profile: 840d_sl, 828d, isg.
+        #[arg(long, value_name = "PROFILE")]
+        profile: Option<String>,
         /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
@@ -311,7 +317,9 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::Signals { filter, machine, profile, format }) => {
             signals::signals(filter.as_deref(), machine.as_deref(), &profile, format, &mut output)
         }
-        Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
+        Some(Command::Alarms { filter, profile, format }) => {
+            alarms::alarms(filter.as_deref(), profile.as_deref(), format, &mut output)
+        }
         Some(Command::Rule { filter, format }) => rule::rule(filter.as_deref(), format, &mut output),
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
         Some(Command::Why { trace, edge, run }) => why::why(&trace, &edge, &run, programs, &mut output),
@@ -325,8 +333,8 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::MachineData { command: MachineData::Check { machine, case, all, deny } }) => {
             machine_data::check(&machine, case.as_deref(), all, &deny, &mut output)
         }
-        Some(Command::MachineData { command: MachineData::List { filter, format } }) => {
-            machine_data::list(filter.as_deref(), format, &mut output)
+        Some(Command::MachineData { command: MachineData::List { filter, profile, format } }) => {
+            machine_data::list(filter.as_deref(), profile.as_deref(), format, &mut output)
         }
         Some(Command::Plc { command: Plc::Check { folder } }) => plc::check(&folder, &mut output),
     };

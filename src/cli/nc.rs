@@ -7,15 +7,18 @@ use std::sync::Arc;
 use clap::Subcommand;
 
 use super::output::Output;
+use crate::isg::language;
 use crate::machine::Machine;
 use crate::nc_program::{
     AxisKind, AxisName, AxisNames, CheckFinding, Library, Program, SINUMERIK, check as check_program,
 };
-use crate::source::{INPUT_MIB, Place, Problem, read_bytes, unreadable};
+use crate::source::{INPUT_MIB, Problem, read_bytes, unreadable};
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Checks NC programs of the SINUMERIK: reports every alarm that block preparation can raise, with line and column.
+    /// Checks NC programs: reports every alarm that block preparation can raise, with line and column.
+    ///
+    /// The ending selects the language: *.nc is that of the ISG kernel and of TwinCAT CNC, all others are that of the SINUMERIK.
     ///
     /// A control raises such an alarm when it reaches the block. The check reads the whole program, also blocks that are jumped over. It also
     /// warns of comparisons beside AND, OR, XOR and NOT without parentheses: comparisons bind weakest. What needs a machine is not checked:
@@ -26,7 +29,7 @@ pub(super) enum Command {
     ///
     /// Exit codes: 0 no alarm (warnings are possible); 1 an alarm; 2 a file cannot be read.
     Check {
-        /// Programs (*.mpf, *.spf), or ASCII archives with several programs.
+        /// Programs (*.mpf, *.spf; *.nc), or ASCII archives with several programs.
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
         /// A folder in which subprograms are searched, too; can be repeated.
@@ -35,12 +38,24 @@ pub(super) enum Command {
         /// A machine with more names of axes: a directory, an archive, or the name of a built-in machine.
         #[arg(long, value_name = "MACHINE")]
         machine: Option<PathBuf>,
+        /// Of *.nc: reads programs as the manuals print them, as `lenient = true` in plant.toml does.
+        #[arg(long)]
+        lenient: bool,
     },
 }
 
 pub(super) fn run(command: &Command, output: &mut Output) -> u8 {
-    let Command::Check { files, program_path, machine } = command;
-    match check(files, program_path, machine.as_deref(), output) {
+    let Command::Check { files, program_path, machine, lenient } = command;
+    let other = files.iter().filter(|file| is_nc(file)).count();
+    let result = match other {
+        0 => check(files, program_path, machine.as_deref(), output),
+        _ if other == files.len() => check_isg(files, program_path, *lenient, output),
+        _ => Err(Problem::new(
+            "expected programs of one control, found *.nc and others",
+            "check them one after the other",
+        )),
+    };
+    match result {
         Ok(alarms) => u8::from(alarms > 0),
         Err(problem) => {
             output.error(problem);
@@ -68,10 +83,6 @@ fn check(
     }
     let mut programs: Vec<(&Path, Arc<Program>)> = Vec::new();
     for file in files {
-        if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nc")) {
-            let place = Place::file(&file.display().to_string());
-            return Err(place.problem("this ending belongs to another control", "name a program *.mpf or *.spf"));
-        }
         let found = read(file)?;
         add_folder(folder_of(file), &mut library)?;
         programs.extend(found.into_iter().map(|program| (file.as_path(), library.add(program))));
@@ -93,10 +104,56 @@ fn check(
             }
         }
     }
-    let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let programs = count(programs.len(), "program");
     output.line(format!("{programs}: {}, {}", count(alarms, "alarm"), count(warnings, "warning")));
     Ok(alarms)
+}
+
+fn is_nc(file: &Path) -> bool {
+    file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nc"))
+}
+
+/// Programs of the ISG kernel. Returns the number of errors.
+fn check_isg(
+    files: &[PathBuf],
+    program_path: &[PathBuf],
+    lenient: bool,
+    output: &mut Output,
+) -> Result<usize, Problem> {
+    let mut others: Vec<Arc<Program>> = Vec::new();
+    for folder in files.iter().map(|file| folder_of(file)).chain(program_path.iter().map(PathBuf::as_path)) {
+        let entries = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
+        let mut beside: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        beside.retain(|file| is_nc(file));
+        beside.sort();
+        // A file beside it that cannot be read is not there.
+        others.extend(beside.iter().filter_map(|file| read(file).ok()).flatten().map(Arc::new));
+    }
+    let mut programs: Vec<(&Path, Program)> = Vec::new();
+    for file in files {
+        programs.extend(read(file)?.into_iter().map(|program| (file.as_path(), program)));
+    }
+    let (mut errors, mut warnings) = (0, 0);
+    for (file, program) in &programs {
+        for finding in language::check(program, &others, lenient) {
+            let fault = &finding.fault;
+            let place = format!("{}:{}:{}", file.display(), program.line_of_file(fault.line), fault.column);
+            let kind = if finding.is_warning { "warning: " } else { "" };
+            *(if finding.is_warning { &mut warnings } else { &mut errors }) += 1;
+            output.line(format!("{place}: {kind}{fault}"));
+        }
+    }
+    output.line(format!(
+        "{}: {}, {}",
+        count(programs.len(), "program"),
+        count(errors, "error"),
+        count(warnings, "warning")
+    ));
+    Ok(errors)
+}
+
+fn count(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// The usual names of axes, and those of the machine.

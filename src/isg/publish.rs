@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::hli::{AxisFromCnc, FromCnc, axis_from_cnc, channel_from_cnc};
 use super::rules::Why;
-use super::state::{AxisError, State};
+use super::state::{Axis, AxisError, State};
 use crate::image::View;
 use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AxisValues, EventId, Place, Variables};
+use crate::variables::{AxisValues, EventId, FaultName, Input, Place, Variables};
 
 /// The axis states of the HLI.
 const READY: u8 = 1;
@@ -140,7 +140,7 @@ impl State {
         } else if is(axis_from_cnc::gantry_on_state) {
             causes.gantry_on
         } else if is(axis_from_cnc::drive_ready) {
-            causes.ready
+            return self.ready_cause(number);
         } else if is(axis_from_cnc::homed) {
             causes.homed
         } else if is(axis_from_cnc::homing) {
@@ -159,6 +159,17 @@ impl State {
         if cause.is_some() { cause } else { self.power_on }
     }
 
+    /// Why a drive is ready or not, as it is now.
+    fn ready_cause(&mut self, number: AxisNumber) -> EventId {
+        let Axis { feedback, causes, .. } = &self.axes[number];
+        let (place, parent) = (Place::Axis(number), causes.ready);
+        if feedback.drive_fault {
+            return self.log.note_one(place, Why::DriveFault, Input::Fault(FaultName::DriveFault), parent);
+        }
+        let why = if feedback.drive_ready { Why::DriveStarted } else { Why::DriveNotReady };
+        self.log.note_plain(place, why, self.power_on)
+    }
+
     /// Why an axis is in position, moves or is held, as it is now.
     fn motion_cause(&mut self, number: AxisNumber) -> EventId {
         let axis = &self.axes[number];
@@ -175,7 +186,7 @@ impl State {
             Why::LeavesPosition
         };
         let quantity = crate::variables::Quantity::Deviation;
-        let input = crate::variables::Input::Length(quantity, number, axis.following_error());
+        let input = Input::Length(quantity, number, axis.following_error());
         self.log.note_one(Place::Axis(number), why, input, parent)
     }
 

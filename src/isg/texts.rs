@@ -35,6 +35,7 @@ fn alarm_row(row: &'static messages::Row) -> AlarmRow {
         cancelled_by: if locked { "restart" } else { "NC reset" }.to_owned(),
         reaction: match row.class {
             1 => "none: a warning".to_owned(),
+            3 => "at the start the entry is corrected; ends a program".to_owned(),
             4 => "stops all coupled axes at a_emergency".to_owned(),
             7 => "halts the axes".to_owned(),
             _ => "ends the program".to_owned(),
@@ -50,7 +51,7 @@ fn parameter_row(parameter: &lists::Parameter) -> AlarmRow {
         name: parameter.id(),
         text: match parameter.scope {
             lists::Scope::Axis => {
-                "Axis %1 %2: the value is out of its range, or not that of the gantry master; corrected (%3)"
+                "Axis %1, %3: corrected; the value is out of its range, or not that of the gantry master %2"
             }
             lists::Scope::Channel => "Channel %1, %2: the value is out of its range; corrected",
         },
@@ -118,7 +119,7 @@ impl Texts for IsgTexts {
     fn machine_data(&self) -> Vec<DatumRow> {
         let row = |parameter: &lists::Parameter| DatumRow {
             number: parameter.number(),
-            name: parameter.name.map_or_else(|| parameter.id(), str::to_owned),
+            name: parameter.name.map_or_else(|| parameter.id(), |name| format!("{} {name}", parameter.id())),
             unit: parameter.units[0],
             range: parameter.range.to_owned(),
             default: parameter.default.to_owned(),
@@ -163,6 +164,8 @@ impl Data for Cnc {
             _ => None,
         };
         let number = parameter.number();
-        Some(DatumValue { number, place, index: None, value: self.0.parameter_in_effect(number, axis) })
+        let written = self.0.lists.written(target);
+        let value = written.or_else(|| self.0.parameter_in_effect(number, axis));
+        Some(DatumValue { number, place, index: None, value })
     }
 }

@@ -131,13 +131,15 @@ impl Program {
     #[must_use]
     pub fn path(&self) -> String {
         let ending = match self.kind {
-            ProgramKind::Main => "MPF",
-            ProgramKind::Sub => "SPF",
+            // A name of another control has its ending already.
+            _ if self.name.ends_with(".NC") => "",
+            ProgramKind::Main => ".MPF",
+            ProgramKind::Sub => ".SPF",
         };
         if self.folder.is_empty() {
-            format!("{}.{ending}", self.name)
+            format!("{}{ending}", self.name)
         } else {
-            format!("{}/{}.{ending}", self.folder.trim_end_matches('/'), self.name)
+            format!("{}/{}{ending}", self.folder.trim_end_matches('/'), self.name)
         }
     }
 

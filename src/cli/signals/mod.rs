@@ -131,7 +131,11 @@ impl Catalogue {
 
     /// What else to do about a name that is not found.
     fn hint(&self) -> &'static str {
-        if self.machine.is_some() { "" } else { ", or add --machine for the names of a machine" }
+        if self.machine.is_some() {
+            ""
+        } else {
+            ", or add --machine for the names of a machine, or --profile isg for another control"
+        }
     }
 
     fn signals(&self) -> Vec<Row> {
