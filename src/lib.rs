@@ -62,7 +62,8 @@
 //! | [`nc_program`] | NC programs as a language: text, words, expressions, blocks, with a dialect; knows the names of axes, and no axis | nothing |
 //! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `nc_program`, `source`, `units`, `variables` |
 //! | [`sinumerik`] | the control of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `nc_program`, `source`, `units`, `variables` |
-//! | [`controls`] | the list of controls: the only module that names them | `control`, `image`, `sinumerik`, `source` |
+//! | [`isg`] | the control of the ISG kernel and TwinCAT CNC: parameter lists, NC language, hard and soft gantry | `control`, `image`, `motion`, `nc_program`, `source`, `units`, `variables` |
+//! | [`controls`] | the list of controls: the only module that names them | `control`, `image`, `isg`, `sinumerik`, `source` |
 //! | [`plc`] | the PLC program: closures over the PLC side, function blocks, built-in programs, STEP 7 sources | `image`, `source`, `units` |
 //! | [`plant`] | the simulated mechanics: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | the record: every change with its time and cause, as text and JSON lines | `image`, `source`, `units`, `variables` |

@@ -74,6 +74,7 @@ impl State {
         let event = self.log.note_one(place, Why::ResetEnds, input, self.channels[index].causes.program);
         self.end_job(index, event);
         let channel = &mut self.channels[index];
+        channel.shown = channel.block();
         channel.causes.reset = event;
         if channel.is_active() {
             channel.causes.program = event;
@@ -154,6 +155,8 @@ impl State {
     pub(super) fn abort_program(&mut self, index: usize, cause: EventId) {
         self.end_job(index, cause);
         let channel = &mut self.channels[index];
+        // Blocks that were fetched ahead are never reached.
+        channel.shown = channel.block();
         if !channel.error {
             channel.error = true;
             channel.causes.error = cause;

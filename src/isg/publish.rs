@@ -152,7 +152,13 @@ impl State {
         } else if is(axis_from_cnc::in_position) {
             return self.motion_cause(number);
         } else if byte == axis_from_cnc::axis_state.byte {
-            if self.axes[number].error.is_some() { causes.error } else { return self.motion_cause(number) }
+            if self.axes[number].error.is_some() {
+                causes.error
+            } else if self.axis_state(number) == READY {
+                self.log.note_plain(Place::Axis(number), Why::Rests, causes.motion)
+            } else {
+                return self.motion_cause(number);
+            }
         } else {
             self.power_on
         };

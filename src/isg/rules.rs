@@ -62,6 +62,7 @@ rules! {
     Held: "NC", "feed hold, override 0, or a missing feed enable holds the movement";
     Moves: "NC", "the axis moves";
     Stands: "NC", "the axis stands at its setpoint";
+    Rests: "NC", "no movement of the axis is commanded";
     LeavesPosition: "NC", "the actual value is away from the setpoint";
     BlockRuns: "NC", "the next block of the program runs";
     PlcMissing: "NC", "the PLC program has stopped";
