@@ -156,7 +156,8 @@ impl State {
 
     fn step_wait(&mut self, index: usize) {
         let wait = std::mem::take(&mut self.channels[index].wait);
-        let holds = self.channels[index].inputs.feed_hold;
+        let inputs = self.channels[index].inputs;
+        let holds = inputs.feed_hold || inputs.feed_override == 0;
         let left = match wait {
             Wait::Nothing | Wait::Dwell(0) => Wait::Nothing,
             Wait::Dwell(cycles) => Wait::Dwell(cycles - 1),
