@@ -127,6 +127,8 @@ pub(super) struct Channel {
     pub end: PerPathAxis,
     /// Single block: a block has been fetched since the last stop.
     pub fetched_one: bool,
+    /// The program has been started in this cycle: it is active for a cycle at least.
+    pub is_new: bool,
     /// M00: the program is held when everything before has been executed.
     pub halts: bool,
     /// The block that runs without the path.
@@ -180,6 +182,7 @@ impl Channel {
             next_block: 0,
             end: PerPathAxis::default(),
             fetched_one: false,
+            is_new: false,
             halts: false,
             shown: 0,
             modal: Modal::default(),

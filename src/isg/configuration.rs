@@ -27,8 +27,6 @@ pub struct ParameterLists {
     started: Started,
     /// All names that axes can have in `plant.toml`.
     names: Vec<String>,
-    /// What the files have beside the messages of the start: unknown entries, entries that stand twice.
-    remarks: Vec<Finding>,
 }
 
 impl ParameterLists {
@@ -38,9 +36,7 @@ impl ParameterLists {
     /// Something cannot be read, with file and line, or there are more axes than places for them.
     pub fn read(files: &[(&str, &[u8])]) -> Result<Self, Problem> {
         let lists = Lists::read(files)?;
-        let of_start = [Class::AlarmAtPowerOn, Class::Unreadable];
-        let remarks = lists::examine(files).findings.into_iter().filter(|finding| !of_start.contains(&finding.class));
-        Self::of(lists, remarks.collect())
+        Self::of(lists)
     }
 
     /// Reads the lists of a folder, or one list.
@@ -54,7 +50,7 @@ impl ParameterLists {
         Self::read(&files)
     }
 
-    fn of(mut lists: Lists, remarks: Vec<Finding>) -> Result<Self, Problem> {
+    fn of(mut lists: Lists) -> Result<Self, Problem> {
         let started = lists.start();
         let most = usize::from(AxisNumber::MAX);
         if started.axes.len() > most {
@@ -68,7 +64,7 @@ impl ParameterLists {
             names.push(format!("ax{}", axis.number));
             names.extend(started.names(axis).into_iter().map(str::to_owned));
         }
-        Ok(Self { lists, started, names, remarks })
+        Ok(Self { lists, started, names })
     }
 }
 
@@ -136,7 +132,7 @@ impl Configuration for ParameterLists {
         for StoredDatum { target, place, value } in data {
             self.lists.set(target, value, place).map_err(|problem| problem.at(place))?;
         }
-        *self = Self::of(self.lists.clone(), std::mem::take(&mut self.remarks))?;
+        *self = Self::of(self.lists.clone())?;
         Ok(())
     }
 
@@ -220,14 +216,13 @@ impl Configuration for ParameterLists {
 }
 
 impl ParameterLists {
-    /// The messages of the start, as findings about the files, and the remarks about them.
+    /// The messages of the start, as findings about the files.
     fn findings(&self) -> Vec<Finding> {
-        let of = |message: &lists::Message| {
-            let text = message.to_string();
-            let what = text.strip_suffix(&format!(" ({})", message.place)).unwrap_or(&text);
-            Finding { place: Some(message.place.clone()), ..Finding::new(Class::AlarmAtPowerOn, what.to_owned(), "") }
+        let of = |message: &lists::Message| Finding {
+            place: Some(message.place.clone()),
+            ..Finding::new(Class::AlarmAtPowerOn, message.to_string(), "")
         };
-        self.started.messages.iter().map(of).chain(self.remarks.iter().cloned()).collect()
+        self.started.messages.iter().map(of).collect()
     }
 }
 

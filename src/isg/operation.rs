@@ -185,6 +185,7 @@ impl State {
                 self.step_path(index);
             }
         }
+        self.channels[index].is_new = false;
         if self.channels[index].resets && self.channels[index].task == Task::Idle && self.stands(index) {
             self.finish_reset(index);
         }
@@ -356,7 +357,7 @@ impl Channel {
         self.blocks.clear();
         (self.path, self.shown) = (None, 0);
         self.modal = Modal { feed: self.first_feed, ..Modal::default() };
-        (self.halts, self.restores) = (false, true);
+        (self.is_new, self.halts, self.restores) = (true, false, true);
         self.manual.clear();
         if !self.retains_axes {
             self.axes = self.configured.clone();

@@ -120,7 +120,7 @@ impl State {
                 return;
             }
             if channel.ended {
-                if is_executed && self.has_settled(index) {
+                if is_executed && !channel.is_new && self.has_settled(index) {
                     self.complete(index);
                 }
                 return;

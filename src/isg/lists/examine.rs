@@ -62,7 +62,6 @@ fn unknown(list: &List, entry: &Unknown) -> Finding {
         datum: entry.name.clone(),
         value: entry.value.clone(),
         owner: list.owner(),
-        group: "unknown parameters",
         ..Finding::new(class, what, cure)
     }
 }
@@ -82,7 +81,6 @@ fn not_modelled(list: &List, key: Key) -> Option<Finding> {
         datum: parameter.title(key.index),
         value: entry.value.to_string(),
         owner: list.owner(),
-        group: "known parameters",
         ..Finding::new(Class::NotModelled, what, "")
     })
 }
