@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::oracle::Listener;
-use crate::{client, conversation, grammar, nc_program};
+use crate::{client, conversation, grammar, isg_lists, isg_program, nc_program};
 
 /// The files of a corpus folder, by name.
 fn corpus(target: &str) -> Vec<(String, Vec<u8>)> {
@@ -49,6 +49,26 @@ fn nc_programs_of_the_corpus_pass() {
     tell("nc_program", nc_program::judge);
 }
 
+#[test]
+fn programs_of_the_isg_kernel_of_the_corpus_pass() {
+    tell("isg_program", isg_program::judge);
+    let blocks = |name: &str| {
+        let (_, input) = corpus("isg_program").into_iter().find(|(file, _)| file == name).expect("it is in the corpus");
+        isg_program::judge(&input)
+    };
+    assert!(blocks("tool_change") > 10 && blocks("control_blocks") > 10);
+}
+
+#[test]
+fn parameter_lists_of_the_corpus_pass() {
+    tell("isg_lists", isg_lists::judge);
+    let axes = |name: &str| {
+        let (_, input) = corpus("isg_lists").into_iter().find(|(file, _)| file == name).expect("it is in the corpus");
+        isg_lists::judge(&input)
+    };
+    assert_eq!([axes("isg_soft_gantry"), axes("isg_hard_gantry"), axes("unreadable")], [5, 4, 0]);
+}
+
 /// The answers are decoded; the names of the conversations give the request.
 #[test]
 fn a_client_gets_the_values_of_valid_answers() {
@@ -67,7 +87,7 @@ fn a_client_gets_the_values_of_valid_answers() {
 
 #[test]
 fn the_corpus_is_small() {
-    for target in ["session", "requests", "client"] {
+    for target in ["session", "requests", "client", "nc_program", "isg_program", "isg_lists"] {
         let files = corpus(target);
         let bytes: usize = files.iter().map(|(_, input)| input.len()).sum();
         assert!(files.len() <= 300 && bytes <= 200_000, "{target}: {} files, {bytes} bytes: minimise it", files.len());

@@ -1,0 +1,6 @@
+//! Any bytes as parameter lists of the ISG kernel.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|input: &[u8]| {
+    opennck_fuzz::isg_lists::judge(input);
+});
