@@ -217,7 +217,7 @@ impl State {
             refuse(self, alarms::ALARM_PENDING, ACTION);
         } else if !self.is_referenced(channel, parameters) {
             refuse(self, START_WITHOUT_REFERENCE, ACTION);
-        } else if to_nck.channels[channel].nc_start_disable() || self.stop(channel, parameters).is_some() {
+        } else if self.is_start_disabled(channel, to_nck) || self.stop(channel, parameters).is_some() {
             // As NC start: no effect.
         } else {
             match selected.filter(|path| library.program(path).is_some()) {

@@ -36,7 +36,7 @@ impl State {
         let place = Place::Channel(channel);
         let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
         let stops = signals.nc_stop() || signals.nc_stop_at_block_limit() || signals.nc_stop_axes_plus_spindles();
-        if signals.nc_start_disable() || stops {
+        if self.is_start_disabled(channel, to_nck) || stops {
             return;
         }
         if mode == Mode::Jog {

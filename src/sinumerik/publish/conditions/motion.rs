@@ -13,6 +13,7 @@ use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
 use crate::sinumerik::single_axis::state::OrderedBy;
 use crate::sinumerik::state::Unit;
+use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::Place;
 
@@ -365,7 +366,7 @@ impl Look<'_> {
 
     /// Neither feed stop nor an override of 0 holds the movement of a unit.
     pub(super) fn not_held(self, unit: &Unit) -> Condition {
-        let mut all = vec![self.channel(unit.channel, channel_to_nck::feed_disable, false)];
+        let mut all = vec![self.not_disabled(unit.channel, channel_to_nck::feed_disable, UserReaction::Feed)];
         all.extend(unit.members().map(|axis| self.axis(axis, axis_to_nck::feed_stop, false)));
         all.push(self.override_acts(unit.leader()));
         Condition::All(all)

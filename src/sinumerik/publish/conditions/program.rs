@@ -8,6 +8,7 @@ use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
 
 /// DB21.DBX32.5, 33.2, 33.5, 35.0 to 35.7.
@@ -114,7 +115,7 @@ impl Look<'_> {
         };
         Condition::All(vec![
             Condition::Any(modes.map(|mode| self.mode_group(group, mode, true)).into()),
-            asks(channel_to_nck::nc_start_disable, false),
+            self.not_disabled(channel, channel_to_nck::nc_start_disable, UserReaction::NcStart),
             asks(channel_to_nck::nc_stop, false),
             asks(channel_to_nck::nc_stop_at_block_limit, false),
             asks(channel_to_nck::nc_stop_axes_plus_spindles, false),
