@@ -1,7 +1,10 @@
 //! What only the 828D shows: auxiliary functions in DB2500, functions of a spindle in DB370x, active reactions of user alarms in DB1600.DBB2000,
 //! machine data for the PLC in DB4500, actual values and distances to go in DB570x.
 
-use crate::image::{ChannelAuxiliary, ChannelAuxiliary828d, UserFromNck, axis_828d, channel_auxiliary as narrow};
+use crate::image::{
+    ChannelAuxiliary, ChannelAuxiliary828d, UserFromNck, axis_828d, channel_auxiliary as narrow,
+    channel_auxiliary_828d as own,
+};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::rules::Rule;
@@ -84,7 +87,6 @@ fn wide(output: &[u8]) -> [u8; AUXILIARY] {
         wide[at..at + bytes.len()].copy_from_slice(bytes);
     };
     let from = |byte: u16, count: usize| &output[usize::from(byte - ChannelAuxiliary::FIRST)..][..count];
-    use crate::image::channel_auxiliary_828d as own;
     put(own::t_function_1.byte + 2, from(narrow::t_function_1.byte, 2));
     put(own::d_function_1.byte + 3, from(narrow::d_function_1.byte, 1));
     let kinds = [
