@@ -222,9 +222,10 @@ impl Names {
             Part::ToNck | Part::FromNck | Part::Hmi | Part::Timers | Part::Counters => false,
         };
         let is_found = || {
-            let found = memory.locate(&self.address(location), self.profile);
             let place = |l: Location| (l.part, l.offset, l.bit, l.width);
-            found.is_ok_and(|found| place(found) == place(location)) || self.symbol(location).is_some()
+            let is_it = |found: Result<Location, Problem>| found.is_ok_and(|found| place(found) == place(location));
+            let by_symbol = || self.symbol(location).is_some_and(|symbol| is_it(self.resolve(memory, &symbol)));
+            is_it(memory.locate(&self.address(location), self.profile)) || by_symbol()
         };
         if is_of_a_program || is_found() {
             return Ok(());

@@ -1,7 +1,9 @@
 //! Conditions of the signals of the NCK, the mode groups and the channels: start-up, ready, modes, states.
 
 use crate::control::{Condition, Fact};
-use crate::image::{axis_from_nck, channel_from_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck, nck_to_nck};
+use crate::image::{
+    UserFromNck, axis_from_nck, channel_from_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck, nck_to_nck,
+};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::operation::state::{MachineFunction, Mode};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
@@ -28,6 +30,11 @@ pub(super) const NCK: &[Row<()>] = &[
         })
         .opposite()
     }),
+    Row::new(UserFromNck::SIGNALS[0], |look, ()| look.user_alarm(UserReaction::NcStart, true).into()),
+    Row::new(UserFromNck::SIGNALS[1], |look, ()| look.user_alarm(UserReaction::ReadIn, true).into()),
+    Row::new(UserFromNck::SIGNALS[2], |look, ()| look.user_alarm(UserReaction::Feed, true).into()),
+    Row::new(UserFromNck::SIGNALS[3], |look, ()| look.user_alarm(UserReaction::EmergencyStop, true).into()),
+    Row::new(UserFromNck::SIGNALS[4], |look, ()| look.user_alarm(UserReaction::PlcStop, true).into()),
 ];
 
 /// DB11.
