@@ -273,20 +273,6 @@ impl Nck {
         event
     }
 
-    /// The PLC program does not run, or runs again after power on.
-    pub fn plc_missing(&mut self) -> EventId {
-        if !self.state.plc_missing {
-            self.state.plc_missing = true;
-            self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcStopped, EventId::NONE);
-        }
-        self.state.plc_cause
-    }
-
-    /// The PLC program runs again; alarm 2000 stays until power off.
-    pub fn plc_restarted(&mut self) {
-        self.state.plc_missing = false;
-    }
-
     /// The active measuring system of an axis, 0 or 1.
     #[must_use]
     pub fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
