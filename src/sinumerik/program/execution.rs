@@ -44,7 +44,7 @@ pub(super) enum Progress {
     Ended,
 }
 
-/// What is only read while programs run.
+/// What programs read, and what they write into machine data and compensation tables.
 pub(super) struct Sources<'a> {
     pub library: &'a Library,
     pub stored: &'a MachineData,

@@ -1,4 +1,4 @@
-//! NC start and its refusals, stop, RESET, the end of a program, and what a change of the mode does to it (nc_programs.md 3.1 to 3.3).
+//! NC start and its refusals, stop, RESET, the end of a program, and what a change of the mode does to it.
 
 use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_from_nck};
 use crate::motion::path::{PATH_AXES, Path, PathLimits};
