@@ -128,9 +128,12 @@ const REFUSED_OUTSIDE_CONTROLS: &[(&str, &str)] =
 
 /// The structures and constants of the SINUMERIK that `image` exports. Everything else in `image` works for any interface.
 const SINUMERIK_IMAGE: &[&str] = &[
+    "ACKNOWLEDGE_USER_ALARMS",
+    "Axis828d",
     "AxisFromNck",
     "AxisToNck",
     "ChannelAuxiliary",
+    "ChannelAuxiliary828d",
     "ChannelFromNck",
     "ChannelHmi",
     "ChannelJumpToNck",
@@ -149,9 +152,14 @@ const SINUMERIK_IMAGE: &[&str] = &[
     "SINUMERIK",
     "Sinumerik",
     "ToNck",
+    "USER_ALARMS",
+    "UserAlarmsToNck",
+    "UserFromNck",
+    "axis_828d",
     "axis_from_nck",
     "axis_to_nck",
     "channel_auxiliary",
+    "channel_auxiliary_828d",
     "channel_from_nck",
     "channel_hmi",
     "channel_jump_to_nck",
@@ -164,6 +172,7 @@ const SINUMERIK_IMAGE: &[&str] = &[
     "nck_from_nck",
     "nck_hmi",
     "nck_to_nck",
+    "user_alarm",
 ];
 
 /// Files that may use [`SINUMERIK_IMAGE`]: the tables themselves, the control, the default structures of a PLC program, and NC variables.

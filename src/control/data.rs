@@ -23,7 +23,7 @@ pub struct Datum {
     /// Only the control may write it.
     pub read_only: bool,
     /// The number of values of the datum.
-    pub count: u8,
+    pub count: u16,
     /// The stored value.
     pub value: Value,
 }

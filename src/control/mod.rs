@@ -204,6 +204,11 @@ pub trait Control: Send + Sync + Debug {
     /// the differences of the PLC's half from the previous cycle.
     fn decide(&mut self, plc: PlcSide<'_>, changes: Changes);
 
+    /// Why the control stops the PLC program now: it does not run again before power off. `None` if it does not.
+    fn stops_plc(&self) -> Option<String> {
+        None
+    }
+
     /// Position control of an axis in part `part` (from 1) of `of` parts of the interpolation cycle. Returns the velocity command for the
     /// drive, in increments per second; `None` for a drive without power. `counts` are the present values of both encoders.
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64>;

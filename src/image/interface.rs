@@ -311,11 +311,6 @@ impl Interface {
         (axes, others)
     }
 
-    /// The length in bytes of the data block of this kind of block.
-    pub(super) fn length(&self, block: Block) -> u16 {
-        self.table(block).map_or(0, |table| length_of(table.ranges))
-    }
-
     /// The position of a byte of the data block of block number `number`; `None` beyond its end. Blocks that share a data block have the
     /// number 1.
     pub(super) fn place(&self, block: Block, number: u8, byte: u16) -> Option<Run> {

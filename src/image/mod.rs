@@ -64,10 +64,12 @@ pub use preset::Preset;
 pub use profile::Profile;
 pub use signal::{Block, Kind, Signal, Unit, Writer};
 pub use sinumerik::{
-    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
-    ChannelSearchFromNck, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck,
-    NckHmi, NckToNck, Plain, SINUMERIK, Sinumerik, ToNck, axis_from_nck, axis_to_nck, channel_auxiliary,
-    channel_from_nck, channel_hmi, channel_jump_to_nck, channel_program_to_nck, channel_search_from_nck,
-    channel_to_nck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck, nck_from_nck, nck_hmi, nck_to_nck,
+    ACKNOWLEDGE_USER_ALARMS, Axis828d, AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelAuxiliary828d, ChannelFromNck,
+    ChannelHmi, ChannelJumpToNck, ChannelProgramToNck, ChannelSearchFromNck, ChannelToNck, FromNck, Hmi,
+    ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Plain, SINUMERIK, Sinumerik, ToNck,
+    USER_ALARMS, UserAlarmsToNck, UserFromNck, axis_828d, axis_from_nck, axis_to_nck, channel_auxiliary,
+    channel_auxiliary_828d, channel_from_nck, channel_hmi, channel_jump_to_nck, channel_program_to_nck,
+    channel_search_from_nck, channel_to_nck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck, nck_from_nck,
+    nck_hmi, nck_to_nck, user_alarm,
 };
 pub use value::{is_no_code, raw_value, signal_value};

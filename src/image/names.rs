@@ -161,22 +161,32 @@ impl Names {
             return Err(Problem::new(format!("expected one of `{}`, found `{owner}`", known.join("`, `")), cure));
         };
         let of_block = || self.interface().signals().filter(|signal| signal.block == block);
-        let state = || self.unit(block, name).map(|unit| &unit.state);
-        let found = of_block().find(|signal| signal.name == name).or_else(state);
-        let found = found.and_then(|signal| self.interface().location(signal, number));
-        found.ok_or_else(|| {
-            let cure = match nearest(name, of_block().map(|signal| signal.name)) {
-                Some(near) => format!("did you mean `{owner}.{near}`?"),
-                None => "`opennck signals` lists all signals".to_owned(),
-            };
-            Problem::new(
+        if let Some(location) = self.unit(block, name).and_then(|unit| self.interface().location(&unit.state, number)) {
+            return Ok(location);
+        }
+        let of_name = of_block().filter(|signal| signal.name == name);
+        let found: Vec<_> = of_name.filter_map(|signal| self.interface().location(signal, number)).collect();
+        // A profile can show a signal with a width of its own: it then exists twice.
+        let shown_by = |profile: Profile| found.iter().copied().find(|location| profile.shows(*location));
+        let usual = || Profile::all(self.interface()).next().and_then(shown_by);
+        if let Some(shown) = shown_by(self.profile).or_else(usual) {
+            return Ok(shown);
+        }
+        let described = self.interface().described(block, number);
+        if !found.is_empty() {
+            let (title, profile) = (self.profile.numbering().title, self.profile.name());
+            return Err(Problem::new(
+                format!("expected a signal that {title} shows, found `{owner}.{name}` ({described})"),
                 format!(
-                    "expected a signal of `{owner}` ({}), found `{owner}.{name}`",
-                    self.interface().described(block, number)
+                    "`opennck signals --profile {profile}` lists the signals of this profile; another profile shows this one"
                 ),
-                cure,
-            )
-        })
+            ));
+        }
+        let cure = match nearest(name, of_block().map(|signal| signal.name)) {
+            Some(near) => format!("did you mean `{owner}.{near}`?"),
+            None => "`opennck signals` lists all signals".to_owned(),
+        };
+        Err(Problem::new(format!("expected a signal of `{owner}` ({described}), found `{owner}.{name}`"), cure))
     }
 
     /// The name of an axis or a channel that is named by its number, as `AX1` or `CHAN1`, while the machine has another name for it.
@@ -266,9 +276,10 @@ impl Names {
             Part::ToNck | Part::FromNck | Part::Hmi | Part::Timers | Part::Counters => false,
         };
         let is_found = || {
-            let found = memory.locate(&self.address(location), self.profile);
             let place = |l: Location| (l.part, l.offset, l.bit, l.width);
-            found.is_ok_and(|found| place(found) == place(location)) || self.symbol(location).is_some()
+            let is_it = |found: Result<Location, Problem>| found.is_ok_and(|found| place(found) == place(location));
+            let by_symbol = || self.symbol(location).is_some_and(|symbol| is_it(self.resolve(memory, &symbol)));
+            is_it(memory.locate(&self.address(location), self.profile)) || by_symbol()
         };
         if is_of_a_program || is_found() {
             return Ok(());

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::source::Problem;
 
 use super::interface::Run;
-use super::{Area, Block, Interface, Numbering, Window};
+use super::{Area, Block, Interface, Location, Numbering, Part, Signal, Window};
 
 /// An interface with one of its numberings.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -95,6 +95,29 @@ impl Profile {
         Some((db, window.first + (byte - window.byte)))
     }
 
+    /// Whether the profile shows a location.
+    #[must_use]
+    pub fn shows(self, location: Location) -> bool {
+        (location.offset..location.offset + location.bytes()).all(|offset| self.shows_byte(location.part, offset))
+    }
+
+    /// Whether the profile shows a byte of a part.
+    #[must_use]
+    pub fn shows_byte(self, part: Part, offset: u32) -> bool {
+        let at = self.interface.signals_at(part, offset);
+        at.is_some_and(|at| self.shown(at.block, at.number, at.byte).is_some())
+    }
+
+    /// Whether the profile shows the signals of a byte of a part elsewhere, with a width of its own.
+    #[must_use]
+    pub fn shows_elsewhere(self, part: Part, offset: u32) -> bool {
+        let Some(at) = self.interface.signals_at(part, offset) else { return false };
+        let same = |one: &Signal, other: &Signal| (one.block, one.name) == (other.block, other.name);
+        let shown = |signal: &Signal| self.shown(signal.block, at.number, signal.byte).is_some();
+        let is_twice = |one: &Signal| self.interface.signals().any(|other| same(one, other) && shown(other));
+        !self.shows_byte(part, offset) && at.signals.iter().any(|signal| is_twice(signal))
+    }
+
     pub(super) fn numbering(self) -> &'static Numbering {
         &self.interface.tables().numberings[self.index]
     }
@@ -121,9 +144,8 @@ impl Profile {
     /// The problem of a byte that an interface data block does not contain.
     fn no_byte(self, db: u16, byte: u32, last: u32) -> Problem {
         let area = Area::DataBlock(db);
-        let is_whole =
-            |window: &Window| (window.byte, window.last + 1) == (window.first, self.interface.length(window.block));
-        if self.windows(db).any(|window| window.first == 0 && is_whole(window)) {
+        let is_whole = |window: &Window| (window.first, window.byte) == (0, 0) && self.windows(db).count() == 1;
+        if self.windows(db).any(is_whole) {
             let length = self.windows(db).last().map_or(0, |window| u32::from(window.last) + 1);
             return beyond(&area.to_string(), length, last + 1);
         }

@@ -131,7 +131,11 @@ impl Machine {
                 let new = self.state.memory.part(part)[place];
                 if new != *old {
                     let offset = u32::try_from(place).unwrap_or(u32::MAX);
-                    self.record_byte(part, offset, *old, new);
+                    let profile = self.definition.names.profile;
+                    // The trace has a value once, as the profile shows it.
+                    if !profile.shows_elsewhere(part, offset) {
+                        self.record_byte(part, offset, *old, new);
+                    }
                     *old = new;
                 }
             }

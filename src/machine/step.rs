@@ -30,6 +30,7 @@ impl Machine {
         // The control decides.
         let changes = self.plc_changes(scanned);
         self.control.decide(self.state.plc_side(), changes);
+        self.stop_plc();
         self.record_activated(By::Nck);
         // Position control, drives and mechanics.
         let vertical = self.definition.layout.vertical;
@@ -91,6 +92,18 @@ impl Machine {
             self.record_happening(Happening::PlcStopped, By::Plc, event);
         }
         true
+    }
+
+    /// The control stops the PLC program.
+    fn stop_plc(&mut self) {
+        if self.state.plc.stopped || self.program.is_none() {
+            return;
+        }
+        let Some(reason) = self.control.stops_plc() else { return };
+        self.state.plc.stopped = true;
+        self.state.plc.fault = Some(reason);
+        let event = self.control.command(&ControlCommand::PlcMissing);
+        self.record_happening(Happening::PlcStopped, By::Nck, event);
     }
 
     fn sense_wired_switches(&mut self) {

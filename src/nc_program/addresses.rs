@@ -20,7 +20,7 @@ const fn row(address: &'static str, kind: AuxiliaryKind, extension: u16, count: 
     Row { address, kind, extension, count }
 }
 
-/// Numbers of nc_programs.md 2.4; of two contradictory ones the larger.
+/// Numbers of the manuals; of two contradictory ones the larger.
 const AUXILIARY: [Row; 7] = [
     row("M", AuxiliaryKind::M, 99, 5),
     row("S", AuxiliaryKind::S, 12, 3),
@@ -355,7 +355,7 @@ fn output(kind: AuxiliaryKind, extension: Option<u16>, value: f64) -> AuxiliaryF
     AuxiliaryFunction { kind, extension, axis: None, value, is_quick: false }
 }
 
-/// The group of an M function (nc_programs.md 1.5): stop and end, spindle, gear stage.
+/// The group of an M function: stop and end, spindle, gear stage.
 fn group(m: f64) -> Option<u8> {
     let has = |numbers: &[f64]| numbers.contains(&m);
     if has(&[0.0, 1.0, 2.0, 17.0, 30.0]) {

@@ -32,7 +32,7 @@ pub struct Dialect {
     pub shown_alarms: i32,
 }
 
-/// The language of the SINUMERIK 840D sl and 828D (nc_programs.md 1).
+/// The language of the SINUMERIK 840D sl and 828D.
 pub static SINUMERIK: Dialect = Dialect {
     name: "SINUMERIK",
     comment: ';',
@@ -69,6 +69,7 @@ fn sinumerik_rank(operator: Operator) -> u8 {
 }
 
 const COMPENSATION: &str = "tool radius compensation";
+const ADDITIVE: &str = "an additive or fine offset";
 const FRAMES: &str = "a frame other than an offset";
 const SPLINES: &str = "an interpolation other than lines and circles";
 const THREADS: &str = "a thread or an interpolation with the spindle";
@@ -83,7 +84,7 @@ const MEASURING: &str = "measuring in a program";
 const OVERLAYS: &str = "an overlaid movement";
 const SPINDLES: &str = "this spindle function";
 const NAMES: &str = "names of axes as text";
-const MACROS: &str = "program text from a macro or a string";
+const MACROS: &str = "program text from a string";
 const OTHERS: &str = "this function";
 
 /// In alphabetical order.
@@ -102,7 +103,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("BSPLINE", SPLINES),
     ("CFC", SPEEDS),
     ("CFIN", SPEEDS),
-    ("CFINE", FRAMES),
+    ("CFINE", ADDITIVE),
     ("CFTCP", SPEEDS),
     ("CIP", SPLINES),
     ("CLRINT", INTERRUPTS),
@@ -171,8 +172,8 @@ const REFUSED: &[(&str, &str)] = &[
     ("G461", COMPENSATION),
     ("G462", COMPENSATION),
     ("G5", SPLINES),
-    ("G58", FRAMES),
-    ("G59", FRAMES),
+    ("G58", ADDITIVE),
+    ("G59", ADDITIVE),
     ("G62", SPEEDS),
     ("G621", SPEEDS),
     ("G63", THREADS),

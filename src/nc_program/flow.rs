@@ -166,7 +166,7 @@ impl Interpreter {
         let block = super::block::parse(text, work.dialect, work.axes)?;
         debug_assert!(head.label.is_none(), "a control structure has no label");
         let Statement::For { variable, at, .. } = block.statement else {
-            return Err(Fault::new(12640, Span::default(), "FOR is not there any more"));
+            return Err(Fault::new(12640, Span::default(), "FOR no longer exists"));
         };
         let value = self.number(&variable, at, work, environment)? + 1.0;
         self.write(&variable, Value::Real(value), at, work, environment)?;

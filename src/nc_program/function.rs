@@ -1,4 +1,4 @@
-//! Functions of expressions (nc_programs.md 1.2). Angles are in degrees.
+//! Functions of expressions. Angles are in degrees.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! G functions: groups and indices as DB21.DBB207 + group shows them, and what holds after power on (nc_programs.md 1.4).
+//! G functions: groups and indices as DB21.DBB207 + group shows them, and what holds after power on.
 
 use serde::{Deserialize, Serialize};
 

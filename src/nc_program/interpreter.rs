@@ -79,7 +79,7 @@ impl Interpreter {
         let Some(level) = self.levels.last() else { return Ok(Prepared::Ended) };
         let Some(program) = environment.program(&level.program) else {
             let name = level.program.clone();
-            let fault = Fault::new(14011, Span::default(), "the program is not there any more").about(&name);
+            let fault = Fault::new(14011, Span::default(), "the program no longer exists").about(&name);
             return Err(fault.alarm(&name, &level.line.to_string(), level.line, ""));
         };
         for _ in 0..LINES {

@@ -1,4 +1,4 @@
-//! NC programs as a language: text, words, expressions, blocks (nc_programs.md 1). The module knows the names of axes, and no axis: it does
+//! NC programs as a language: text, words, expressions, blocks. The module knows the names of axes, and no axis: it does
 //! not know where an axis is, what it may do, or what moves it.
 //!
 //! # The boundary

@@ -1,4 +1,4 @@
-//! Operators of expressions (nc_programs.md 1.2).
+//! Operators of expressions.
 //!
 //! `+ - *` of two INT give INT, else REAL; `/` always gives REAL; DIV cuts to a whole number; MOD and the bit operators only take whole
 //! types. REALs are equal if they differ by at most 1E-12 of the larger one.

@@ -1,4 +1,4 @@
-//! Programs as text: files and ASCII archives (nc_programs.md 1.1). A program keeps its text and where its lines begin; a block is read
+//! Programs as text: files and ASCII archives. A program keeps its text and where its lines begin; a block is read
 //! when it is reached.
 
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Values of the NC language: their types and conversions (nc_programs.md 1.2).
+//! Values of the NC language: their types and conversions.
 //!
 //! REAL to INT rounds, one half upwards. A number is TRUE as BOOL if it is not 0; BOOL is 0 or 1 as a number. STRING, AXIS and FRAME convert only to
 //! themselves, except a string of one character to CHAR.

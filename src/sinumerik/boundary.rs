@@ -13,6 +13,7 @@ use crate::sinumerik::jog::state::HANDWHEELS;
 use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::nck::{Nck, shown};
 use crate::sinumerik::texts::TEXTS;
+use crate::sinumerik::user::state::UserReaction;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position};
 use crate::variables::{AlarmNumber, DatumValue, EventId, Events, Place, RParameters, Variables};
@@ -110,6 +111,11 @@ impl Control for Nck {
     fn decide(&mut self, plc: PlcSide<'_>, changes: Changes) {
         self.select_handwheels(nck_hmi(plc));
         Self::decide(self, to_nck(plc), changes);
+    }
+
+    fn stops_plc(&self) -> Option<String> {
+        let alarm = self.state.user.alarm(UserReaction::PlcStop)?;
+        Some(format!("user alarm {alarm} stops the PLC (MD14516 bit 4)"))
     }
 
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64> {

@@ -141,7 +141,8 @@ impl Configuration for Commissioning {
         let strobe = Strobe::read(settings)?;
         let data = &self.archive.data;
         let presence = self.presence(site);
-        let control = Nck::new(data.clone(), presence, self.archive.out_of_range.clone(), strobe);
+        let is_828d = profile == Profile::SINUMERIK_828D;
+        let control = Nck::new(data.clone(), presence, self.archive.out_of_range.clone(), strobe, is_828d);
         let names = Names {
             axes: PerAxis::from_fn(|axis| presence[axis].exists.then(|| data.axis_name(axis).to_owned())),
             channels: PerChannel::from_fn(|channel| Some(data.channels[channel].chan_name.clone())),

@@ -42,6 +42,7 @@ mod spindle;
 mod state;
 mod strobe;
 mod texts;
+mod user;
 
 pub use alarms::axis_exchange::AXIS_EXCHANGE as AXIS_EXCHANGE_ALARMS;
 pub use alarms::not_raised::NOT_RAISED as ALARMS_NOT_RAISED;

@@ -2,7 +2,7 @@
 //!
 //! What it writes follows from the rows of publication. What it reads is the list here; a test compares it with the sources.
 
-use crate::image::{Signal, Writer};
+use crate::image::{Signal, UserAlarmsToNck, Writer};
 use crate::image::{
     axis_to_nck, channel_jump_to_nck, channel_program_to_nck, channel_to_nck, mode_group_to_nck, nck_hmi, nck_to_nck,
 };
@@ -160,6 +160,6 @@ pub(super) fn is_modelled(signal: &Signal) -> bool {
     let same = |other: &Signal| (other.block, other.byte, other.bit) == (signal.block, signal.byte, signal.bit);
     match signal.writer {
         Writer::Nck => has_row(signal),
-        Writer::Plc | Writer::Hmi => READ.iter().any(same) || has_row(signal),
+        Writer::Plc | Writer::Hmi => READ.iter().chain(UserAlarmsToNck::SIGNALS).any(same) || has_row(signal),
     }
 }

@@ -32,6 +32,8 @@ pub struct Nck {
     pub(super) presence: Arc<PerAxis<AxisPresence>>,
     /// Values of the archive outside of their ranges (O-30): the model works with the nearest permitted ones.
     out_of_range: Arc<[Target]>,
+    /// The profile is that of the 828D.
+    is_828d: bool,
     /// The axes whose MD30350 was entered at the control, and those whose entry is active (E-26).
     output_entered: [AxisSet; 2],
     pub(super) parameters: Arc<Parameters>,
@@ -53,6 +55,7 @@ impl Clone for Nck {
             active: Arc::clone(&self.active),
             presence: Arc::clone(&self.presence),
             out_of_range: Arc::clone(&self.out_of_range),
+            is_828d: self.is_828d,
             output_entered: self.output_entered,
             parameters: Arc::clone(&self.parameters),
             state: self.state.clone(),
@@ -65,19 +68,22 @@ impl Clone for Nck {
     }
 }
 
-/// The data that the stages work with; MD30350 of the axes `entered` was entered at the control.
+/// The data that the stages work with; MD30350 of the axes `entered` was entered at the control. On an 828D, the PLC has
+/// machine data and alarms of its own.
 fn parameters(
     data: &MachineData,
     presence: &PerAxis<AxisPresence>,
     out_of_range: &[Target],
-    entered: AxisSet,
+    (entered, is_828d): (AxisSet, bool),
 ) -> Parameters {
     let given = |axis| AxisPresence {
         output_is_given: presence[axis].output_is_given || entered.contains(axis),
         ..presence[axis]
     };
     let presence = PerAxis::from_fn(given);
-    Parameters::new(&data.acting(out_of_range), &presence)
+    let data = data.acting(out_of_range);
+    let parameters = Parameters::new(&data, &presence);
+    if is_828d { parameters.on_828d(&data) } else { parameters }
 }
 
 /// A saved control. Its large parts are boxed: a reader has several copies of a part on its stack, which has 2 MB in a thread.
@@ -98,9 +104,10 @@ impl Nck {
         presence: PerAxis<AxisPresence>,
         out_of_range: Vec<Target>,
         strobe: Strobe,
+        is_828d: bool,
     ) -> Self {
         let stored = Arc::new(data);
-        let parameters = Arc::new(parameters(&stored, &presence, &out_of_range, AxisSet::NONE));
+        let parameters = Arc::new(parameters(&stored, &presence, &out_of_range, (AxisSet::NONE, is_828d)));
         let state = Box::new(State::new(&parameters));
         let resting = Box::new(Resting::new(&state));
         let (active, presence) = (Arc::clone(&stored), Arc::new(presence));
@@ -111,6 +118,7 @@ impl Nck {
             active,
             presence,
             out_of_range,
+            is_828d,
             output_entered,
             parameters,
             state,
@@ -174,7 +182,7 @@ impl Nck {
 
     /// From the active machine data.
     pub(super) fn parameters_now(&self) -> Parameters {
-        parameters(&self.active, &self.presence, &self.out_of_range, self.output_entered[1])
+        parameters(&self.active, &self.presence, &self.out_of_range, (self.output_entered[1], self.is_828d))
     }
 
     /// The data that the stages work with.
@@ -265,20 +273,6 @@ impl Nck {
         event
     }
 
-    /// The PLC program does not run, or runs again after power on.
-    pub fn plc_missing(&mut self) -> EventId {
-        if !self.state.plc_missing {
-            self.state.plc_missing = true;
-            self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcStopped, EventId::NONE);
-        }
-        self.state.plc_cause
-    }
-
-    /// The PLC program runs again; alarm 2000 stays until power off.
-    pub fn plc_restarted(&mut self) {
-        self.state.plc_missing = false;
-    }
-
     /// The active measuring system of an axis, 0 or 1.
     #[must_use]
     pub fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
@@ -346,6 +340,7 @@ impl Nck {
         self.state.note_power_on();
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
+        self.state.watch_user_alarms(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.select_program_tests(to_nck);
         self.start_searches(to_nck);

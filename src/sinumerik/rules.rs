@@ -356,6 +356,11 @@ rules! {
     ExactStopWithoutControl "exact stop" "no position control";
     Standstill "standstill" "";
     SetpointsOutput "O-29" "new setpoints are output";
+    // Only on the 828D.
+    UserAlarm "P828-03" "the PLC sets a user alarm";
+    UserAlarmEnds "P828-03" "the PLC resets a user alarm";
+    UserAlarmAcknowledged "P828-03" "the PLC resets a user alarm and acknowledges it";
+    ValueRequested "P828-03" "the PLC requests this value";
 }
 
 impl From<Rule> for RuleNumber {

@@ -22,6 +22,7 @@ use crate::sinumerik::referencing::state::{Buffered, EncoderDatum};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::SingleAxes;
 use crate::sinumerik::spindle::state::Spindle;
+use crate::sinumerik::user::state::User;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place, RParameters};
 
@@ -131,6 +132,8 @@ pub(super) struct State {
     pub led: PerAxis<Option<Led>>,
     /// The axes with a compensation value.
     pub compensating: AxisSet,
+    /// The user alarms of an 828D.
+    pub user: User,
     /// Another writer wrote into the NCK's half. The next publication overwrites all of it (SIG-11).
     pub overwritten: bool,
 }
@@ -169,6 +172,7 @@ impl State {
             generators: Vec::new(),
             led: PerAxis::default(),
             compensating: AxisSet::NONE,
+            user: User::default(),
             overwritten: true,
         };
         for number in parameters.spindles.iter() {

@@ -113,7 +113,7 @@ fn datum_row(datum: &Datum) -> DatumRow {
     let written = |is_rotary| {
         let of =
             |index| datum.default_value(index, is_rotary).map_or_else(String::new, |value| value.export(datum.kind));
-        let all: Vec<_> = (0..datum.count).map(of).collect();
+        let all: Vec<_> = datum.indices().map(of).collect();
         // Most data have one default for all indices; the names of axes and channels have one for each.
         match all.as_slice() {
             [first, others @ ..] if others.iter().all(|value| value == first) => first.clone(),

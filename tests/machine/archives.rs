@@ -193,7 +193,7 @@ proptest! {
         let mut text = AXES.to_owned();
         for (datum, axis, index, pick, any) in values {
             let datum = datum.get(&data);
-            let index = index % datum.count;
+            let index = u8::try_from(u16::from(index) % datum.count).unwrap();
             let index = match (datum.scope, datum.count) {
                 (Scope::Axis | Scope::AxisSetting, 1) => format!("[AX{axis}]"),
                 (Scope::Axis | Scope::AxisSetting, _) => format!("[{index},AX{axis}]"),

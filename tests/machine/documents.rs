@@ -514,13 +514,15 @@ fn decisions() -> Vec<Decision> {
 /// `E-01`.
 fn is_id(text: &str) -> bool {
     let Some((letter, number)) = text.split_once('-') else { return false };
-    ["E", "O", "C", "P", "K"].contains(&letter) && number.len() == 2 && number.bytes().all(|byte| byte.is_ascii_digit())
+    ["E", "O", "C", "P", "K", "X", "S"].contains(&letter)
+        && number.len() == 2
+        && number.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 #[test]
 fn decisions_are_sorted_and_name_modules_and_tests_that_exist() {
     let decisions = decisions();
-    for letter in ["E", "O", "C", "P", "K"] {
+    for letter in ["E", "O", "C", "P", "K", "X", "S"] {
         let ids: Vec<&str> = decisions.iter().map(|row| row.id.as_str()).filter(|id| id.starts_with(letter)).collect();
         assert!(ids.is_sorted() && !ids.is_empty(), "sort by ID: {ids:?}");
     }

@@ -26,24 +26,8 @@ fn bits(machine: &Machine) -> Vec<Location> {
         let own = owners.iter().filter(|(block, _)| *block == signal.block);
         own.filter_map(|(_, number)| interface.location(signal, *number)).collect::<Vec<_>>()
     });
-    // The brake of an axis opens a step after the facts that its conditions name.
-    let is_brake = |location| names.symbol(location).is_some_and(|symbol| symbol.ends_with(".holding_brake_open"));
-    all.filter(|&location| machine.conditions(location, true).is_some() && !is_brake(location)).collect()
+    all.filter(|&location| machine.conditions(location, true).is_some()).collect()
 }
-
-/// Scenarios of functions that the conditions do not know yet: DRF and function generator, compensations, spindles, holding brakes, axes that
-/// the PLC positions, program test and block search (docs/limits.md).
-const NOT_YET: [&str; 9] = [
-    "golden/archives/spindle",
-    "golden/compensation/",
-    "golden/exchange/",
-    "golden/overlay/",
-    "golden/start_up/",
-    "golden/spindle/",
-    "golden/brake/",
-    "golden/program/program_test",
-    "golden/program/search_",
-];
 
 /// A fact that does not hold although everything that is named for its next step holds.
 fn stuck(tested: &Tested) -> bool {
@@ -148,9 +132,6 @@ fn conditions_have_the_value_of_their_signal_and_name_what_it_waits_for() {
     let mut wrong = Findings::new();
     for file in scenario_files(&[root.join("golden")]).unwrap() {
         let name = file.strip_prefix(root).unwrap_or(&file).display().to_string();
-        if NOT_YET.iter().any(|start| name.starts_with(start)) {
-            continue;
-        }
         for case in cases(&file).unwrap() {
             let prepared = case.scenario.prepare(case.profile, &programs).unwrap();
             let name = name.clone();

@@ -287,3 +287,75 @@ fn a_catalogue_without_a_matching_row_names_the_nearest_word() {
         assert!(output.status.code() == Some(1) && err(&output).contains(words), "{arguments:?}: {}", err(&output));
     }
 }
+
+/// Functions beside JOG and referencing: each tree names what the function waits for, and not what waits for another one.
+#[test]
+fn why_not_knows_spindles_brakes_positioning_tests_and_overlays() {
+    let project = std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    for (scenario, signal, words, not) in [
+        // Accelerating to S600.
+        ("spindle/stops", "SP1.spindle_in_setpoint_range@0.06", "within 10 % (MD35150) of 600.000000 rev/min", "M5"),
+        (
+            "spindle/stops",
+            "X.axis_stationary@0.15",
+            "what the path of CHAN1 waits for: the speed of its spindles",
+            "feed_stop",
+        ),
+        (
+            "spindle/positioning",
+            "SP1.spindle_in_position@0.2",
+            "the target of SP1 is known: its zero mark was passed: no",
+            "jog",
+        ),
+        (
+            "spindle/m3_m4_m5",
+            "SP1.traverse_command_plus@0.05",
+            "function of SP1: M3 S600, direction plus",
+            "traversing_key",
+        ),
+        (
+            "spindle/keys_and_chuck_speed",
+            "SP1.traverse_command_plus@0.05",
+            "SP1.traversing_key_plus (DB33.DBX4.7) = 1, wanted 0: changed last at 0.036 s by outside",
+            "M3",
+        ),
+        // At the end the PLC no longer opens it by 20.5, and 25030 switches the axis off.
+        (
+            "brake/vertical_axis_with_brake",
+            "Y.holding_brake_open",
+            "alarm of Y with the reaction follow-up: 25030 [Y]",
+            "X.",
+        ),
+        (
+            "exchange/positioning_stopped",
+            "X.traverse_command_plus@1.5",
+            "positioning of X: by the PLC",
+            "traversing_key",
+        ),
+        (
+            "program/program_test_of_axes",
+            "CHAN1.program_test_active@0.05",
+            "activate_program_test (DB21.DBX1.7) = 1, wanted 0",
+            "X.",
+        ),
+        (
+            "overlay/drf_of_a_grouping",
+            "X.handwheel_1_active@7.9",
+            "CHAN1.activate_drf (DB21.DBX0.3) = 0, wanted 1",
+            "Y.",
+        ),
+        (
+            "start_up/function_generator_refused",
+            "Y.position_reached_exact_stop_fine@0.062",
+            "movement of Y beside its setpoint: the function generator, wanted none",
+            "deviation",
+        ),
+    ] {
+        let file = format!("golden/{scenario}.toml");
+        let output = opennck(&["why-not", &file, signal], &project);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        let tree = out(&output);
+        let (head, below) = tree.split_once('\n').unwrap();
+        assert!(below.contains(words) && !below.contains(not), "{scenario} {signal}\n{head}\n{below}");
+    }
+}

@@ -1,4 +1,4 @@
-//! DB21 to DB30, bytes 58 to 271: the auxiliary functions and G functions that a channel outputs to the PLC (nc_programs.md 2.3 to 2.5).
+//! DB21 to DB30, bytes 58 to 271: the auxiliary functions and G functions that a channel outputs to the PLC.
 //!
 //! Values stay until the next output of their place; the change bits and the decoded M functions are 1 for one PLC cycle.
 

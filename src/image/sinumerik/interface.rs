@@ -3,9 +3,10 @@
 use zerocopy::IntoBytes;
 
 use super::{
-    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
-    ChannelSearchFromNck, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck,
-    NckHmi, NckToNck, ToNck, axis_to_nck, channel_to_nck, places, profiles,
+    Axis828d, AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelAuxiliary828d, ChannelFromNck, ChannelHmi,
+    ChannelJumpToNck, ChannelProgramToNck, ChannelSearchFromNck, ChannelToNck, FromNck, Hmi, ModeGroupFromNck,
+    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck, UserAlarmsToNck, UserFromNck, axis_to_nck,
+    channel_to_nck, places, profiles,
 };
 use crate::image::{Interface, Layout, Memory, Override, Profile, SwitchSignals, Tables};
 
@@ -29,6 +30,10 @@ pub static SINUMERIK: Interface = Interface::new(Tables {
         ChannelJumpToNck::SIGNALS,
         AxisToNck::SIGNALS,
         AxisFromNck::SIGNALS,
+        UserAlarmsToNck::SIGNALS,
+        UserFromNck::SIGNALS,
+        ChannelAuxiliary828d::SIGNALS,
+        Axis828d::SIGNALS,
     ],
     to_nck: size_of::<ToNck>(),
     from_nck: size_of::<FromNck>(),
@@ -68,7 +73,7 @@ impl Layout for Sinumerik {
 impl Profile {
     /// SINUMERIK 840D sl: DB10, DB11, DB21 to DB30, DB31 to DB61.
     pub const SINUMERIK_840D_SL: Self = Self::new(&SINUMERIK, 0);
-    /// SINUMERIK 828D: DB1800, DB2600, DB2700, DB3000, DB3100, DB3200, DB3300, DB3800 to DB3807, DB3900 to DB3907.
+    /// SINUMERIK 828D: DB1600 to DB1900, DB2500 to DB2700, DB3000 to DB3500, DB3700 to DB3907, DB4500, DB5700 to DB5707.
     pub const SINUMERIK_828D: Self = Self::new(&SINUMERIK, 1);
 }
 

@@ -8,6 +8,7 @@ mod db21_program;
 mod db31;
 mod interface;
 mod machine_functions;
+mod own_828d;
 mod parts;
 mod places;
 mod profiles;
@@ -24,4 +25,8 @@ pub use db21_program::{
 };
 pub use db31::{AxisFromNck, AxisToNck, axis_from_nck, axis_to_nck};
 pub use interface::{SINUMERIK, Sinumerik};
+pub use own_828d::{
+    ACKNOWLEDGE_USER_ALARMS, Axis828d, ChannelAuxiliary828d, USER_ALARMS, UserAlarmsToNck, UserFromNck, axis_828d,
+    channel_auxiliary_828d, user_alarm,
+};
 pub use parts::{FromNck, Hmi, Plain, ToNck};

@@ -5,8 +5,9 @@ use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligne
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 
 use super::{
-    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
-    ChannelSearchFromNck, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck,
+    Axis828d, AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelAuxiliary828d, ChannelFromNck, ChannelHmi,
+    ChannelJumpToNck, ChannelProgramToNck, ChannelSearchFromNck, ChannelToNck, ModeGroupFromNck, ModeGroupHmi,
+    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, UserAlarmsToNck, UserFromNck,
 };
 
 /// Plain bytes of DB10: 0 to 55, 58 to 67, 110 to 271.
@@ -34,6 +35,8 @@ pub struct ToNck {
     pub program_control: PerChannel<ChannelProgramToNck>,
     /// DB21 to DB30, jumps to the start of the program.
     pub jumps: PerChannel<ChannelJumpToNck>,
+    /// DB1600 of the 828D.
+    pub user_alarms: UserAlarmsToNck,
     /// Bytes without a name.
     pub plain: Plain,
 }
@@ -54,6 +57,12 @@ pub struct FromNck {
     pub auxiliary: PerChannel<ChannelAuxiliary>,
     /// DB21 to DB30, block search and associated stops.
     pub searches: PerChannel<ChannelSearchFromNck>,
+    /// DB1600 and DB4500 of the 828D.
+    pub user: UserFromNck,
+    /// DB2500 of the 828D.
+    pub auxiliary_828d: PerChannel<ChannelAuxiliary828d>,
+    /// DB370x and DB570x of the 828D.
+    pub axes_828d: PerAxis<Axis828d>,
 }
 
 /// The signals that the HMI writes: strobes and selections.

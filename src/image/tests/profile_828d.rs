@@ -6,6 +6,25 @@ use super::{all_names, location, names, names_828d, signals};
 
 /// Address on the 840D sl, address on the 828D, copied from the manuals by hand; axis XF is axis 3.
 const EQUIVALENT: &[(&str, &str)] = &[
+    ("DB10.DBB57", "DB2600.DBB1"),
+    ("DB10.DBX100.6", "DB1900.DBX1003.6"),
+    ("DB10.DBX102.7", "DB1900.DBX1005.7"),
+    ("DB21.DBX24.6", "DB1700.DBX0.6"),
+    ("DB21.DBX25.3", "DB1700.DBX1.3"),
+    ("DB21.DBB26", "DB1700.DBB2"),
+    ("DB21.DBX30.5", "DB3200.DBX14.5"),
+    ("DB21.DBX31.6", "DB3200.DBX15.6"),
+    ("DB21.DBX384.0", "DB3200.DBX16.0"),
+    ("DB21.DBX318.5", "DB3300.DBX4002.5"),
+    ("DB21.DBX58.0", "DB2500.DBX4.0"),
+    ("DB21.DBX60.0", "DB2500.DBX6.0"),
+    ("DB21.DBX61.0", "DB2500.DBX8.0"),
+    ("DB21.DBX62.0", "DB2500.DBX10.0"),
+    ("DB21.DBX64.2", "DB2500.DBX12.2"),
+    ("DB21.DBX194.3", "DB2500.DBX1000.3"),
+    ("DB21.DBX206.3", "DB2500.DBX1012.3"),
+    ("DB21.DBB208", "DB3500.DBB0"),
+    ("DB21.DBB271", "DB3500.DBB63"),
     ("DB10.DBX56.1", "DB2600.DBX0.1"),
     ("DB10.DBX56.2", "DB2600.DBX0.2"),
     ("DB10.DBX106.1", "DB2700.DBX0.1"),
@@ -117,10 +136,66 @@ fn every_signal_has_an_address_that_leads_back_or_keeps_its_840d_sl_address() {
     assert!(shown > 8 * 100);
 }
 
+/// The signals that only the 828D has, or has with another width: symbol and address.
+const OWN: &[(&str, &str)] = &[
+    ("nck.user_alarm_700000", "DB1600.DBX0.0"),
+    ("nck.user_alarm_700016", "DB1600.DBX2.0"),
+    ("nck.user_alarm_700247", "DB1600.DBX30.7"),
+    ("nck.user_alarm_disables_nc_start", "DB1600.DBX2000.0"),
+    ("nck.user_alarm_plc_stop", "DB1600.DBX2000.4"),
+    ("nck.acknowledge_user_alarms", "DB1600.DBX3000.0"),
+    ("nck.user_data_integer_0", "DB4500.DBW0"),
+    ("nck.user_data_integer_31", "DB4500.DBW62"),
+    ("nck.user_data_byte_31", "DB4500.DBB1031"),
+    ("nck.user_data_real_7", "DB4500.DBD2028"),
+    ("CHAN1.t_function_1", "DB2500.DBD2000"),
+    ("CHAN1.m_function_1", "DB2500.DBD3000"),
+    ("CHAN1.m_function_1_extension", "DB2500.DBB3004"),
+    ("CHAN1.m_function_5", "DB2500.DBD3032"),
+    ("CHAN1.s_function_1", "DB2500.DBD4000"),
+    ("CHAN1.s_function_3_extension", "DB2500.DBB4020"),
+    ("CHAN1.d_function_1", "DB2500.DBD5000"),
+    ("CHAN1.h_function_3", "DB2500.DBD6016"),
+    ("X.spindle_m_function", "DB3700.DBD0"),
+    ("XF.spindle_s_function", "DB3702.DBD4"),
+    ("X.axis_actual_value", "DB5700.DBD0"),
+    ("XF.axis_distance_to_go", "DB5702.DBD4"),
+];
+
+/// P828-03
+#[test]
+fn signals_of_its_own_are_at_its_addresses_and_only_there() {
+    let (memory, names_828d) = (Memory::new(), names_828d());
+    for (symbol, address) in OWN {
+        let location = names_828d.resolve(&memory, symbol).unwrap();
+        assert_eq!(names_828d.resolve(&memory, address).unwrap(), location, "{symbol}");
+        assert_eq!(names_828d.address(location).to_string(), *address, "{symbol}");
+        assert_eq!(names_828d.symbol(location).as_deref(), Some(*symbol));
+        match names().resolve(&memory, symbol) {
+            // The 840D sl has it elsewhere, with another width.
+            Ok(other) => assert_ne!(other, location, "{symbol}"),
+            Err(problem) => assert!(problem.to_string().contains("the 840D sl shows"), "{symbol}: {problem}"),
+        }
+    }
+}
+
+/// P828-03: no source gives these an address on the 828D. A scenario for both controls can name them, and they keep the other address.
+#[test]
+fn a_symbol_that_only_the_840d_sl_shows_keeps_its_address() {
+    let memory = Memory::new();
+    for (symbol, address) in [("CHAN1.f_function_1", "DB21.DBD160"), ("X.repos_delay", "DB31.DBX72.0")] {
+        let location = names_828d().resolve(&memory, symbol).unwrap();
+        assert_eq!(names_828d().address(location).to_string(), address);
+        assert!(!super::D828.shows(location));
+    }
+}
+
 #[test]
 fn blocks_that_the_828d_does_not_have_are_rejected() {
     let refused = |text: &str| names_828d().resolve(&Memory::new(), text).unwrap_err().to_string();
     assert!(refused("DB31.DBX101.5").contains("840D sl"));
+    assert!(refused("DB1600.DBX31.0").contains("0 to 30, 1000 to 1991, 2000 to 2000, 3000 to 3000"));
+    assert!(refused("DB5708.DBD0").contains("DB5700 to DB5707"));
     assert!(refused("DB3808.DBB0").contains("DB3800 to DB3807"));
     assert!(refused("DB3900.DBB12").contains("0 to 11, 1000 to 1003"));
     assert!(refused("DB3900.DBD9").contains("found byte 12"));

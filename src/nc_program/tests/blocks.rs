@@ -1,4 +1,4 @@
-//! Files and blocks (nc_programs.md 1.1), numbers and addresses.
+//! Files and blocks, numbers and addresses.
 
 use super::{Channel, alarm, interpreter, path, r, run, run_in};
 use crate::nc_program::{AuxiliaryKind, Prepared};

@@ -1,4 +1,4 @@
-//! Variables and expressions (nc_programs.md 1.2).
+//! Variables and expressions.
 
 use super::{Channel, alarm, path, r, run, run_in};
 

@@ -1,4 +1,4 @@
-//! Control structures, jumps, repetitions and subprograms (nc_programs.md 1.3).
+//! Control structures, jumps, repetitions and subprograms.
 
 use super::{Channel, alarm, interpreter, path, r, run, run_in};
 use crate::nc_program::{End, Prepared};

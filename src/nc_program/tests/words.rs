@@ -1,4 +1,4 @@
-//! G functions, auxiliary functions and commands (nc_programs.md 1.4 to 1.7).
+//! G functions, auxiliary functions and commands.
 
 use super::{Channel, alarm, interpreter, run, run_in};
 use crate::nc_program::{

@@ -8,9 +8,9 @@ fn blocks_are_counted_by_type() {
     // DB10, DB11, DB21 to DB61, ten standard blocks and two user blocks: 55.
     let counts = "30 38 00 00 30 41 00 37 30 42 00 00 30 43 00 00 30 44 00 00 30 45 00 00 30 46 00 00";
     assert_eq!(client.user_data(3, 1, ""), ("00 00".to_owned(), format!("FF 09 00 1C {counts}")));
-    // 828D: DB1800, DB2600, DB2700, DB3000, DB3100, DB3200, DB3300 and two times eight, and the same other blocks: 35.
+    // 828D: DB1600 to DB1900 (4), DB2500 to DB2700 (3), DB3000 to DB3300 and DB3500 (5), DB4500, four times eight, and the same other blocks: 57.
     let answer = Client::ready(240).on_828d().user_data(3, 1, "").1;
-    assert!(answer.contains("30 41 00 23"), "{answer}");
+    assert!(answer.contains("30 41 00 39"), "{answer}");
 }
 
 #[test]

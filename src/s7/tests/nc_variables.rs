@@ -526,7 +526,7 @@ fn every_variable_of_the_catalogue_has_a_first_line() {
     }
 }
 
-/// s7.md 5: an alarm list in a cyclic subscription.
+/// An alarm list in a cyclic subscription.
 #[test]
 fn an_nc_variable_comes_in_cycles_too() {
     let mut client = client();

@@ -3,7 +3,7 @@
 use super::{CONNECT, Client, bytes, hex, packet};
 use crate::s7::{Connection, Session, Settings};
 
-/// s7.md 7: rust7 reads exactly 22 bytes.
+/// The client rust7 reads exactly 22 bytes.
 #[test]
 fn a_connection_is_confirmed_with_the_parameters_in_one_order() {
     let confirm = "03 00 00 16 11 D0 00 01 00 01 00 C0 01 0A C1 02 01 00 C2 02 01 02";
@@ -65,7 +65,7 @@ fn a_request_in_several_pieces_is_one_request() {
     assert_eq!(client.send(&piece(c, 0x80)), whole);
 }
 
-/// s7.md 4.2: some collectors send an empty DT after every request.
+/// Some collectors send an empty DT after every request.
 #[test]
 fn an_empty_data_tpdu_is_swallowed() {
     let mut client = Client::ready(480);

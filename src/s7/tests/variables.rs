@@ -122,6 +122,10 @@ fn blocks_that_do_not_exist_and_addresses_behind_their_end_are_told_apart() {
         ("02 00 01 0F 3C 84 00 00 00", "FF 04 00 08 A5"), // DB3900
         ("02 00 01 0F 3C 84 00 9C 58", "FF 04 00 08 A5"), // DB3900.DBB5003
         ("02 00 01 0F 3C 84 00 13 88", "05 00 00 00"),    // DB3900.DBB625
+        ("02 00 01 06 40 84 00 00 00", "FF 04 00 08 A5"), // DB1600.DBB0
+        ("02 00 01 09 C4 84 00 3E 80", "FF 04 00 08 A5"), // DB2500.DBB2000
+        ("02 00 01 09 C4 84 00 3E A0", "05 00 00 00"),    // DB2500.DBB2004
+        ("02 00 01 16 44 84 00 00 38", "FF 04 00 08 A5"), // DB5700.DBB7
         ("02 00 01 00 1F 84 00 00 00", "0A 00 00 00"),
     ] {
         assert!(client.read(&[item]).ends_with(code), "{item}: {}", client.read(&[item]));

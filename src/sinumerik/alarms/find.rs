@@ -1,8 +1,20 @@
 //! The row of an alarm in the tables.
 
 use crate::sinumerik::alarms::axis_exchange::AXIS_EXCHANGE;
-use crate::sinumerik::alarms::{Alarm, CATALOGUE, programs};
+use crate::sinumerik::alarms::{Alarm, CATALOGUE, Cancel, Reaction, programs};
 use crate::variables::AlarmNumber;
+
+/// The user alarms of an 828D: MD14516 defines what clears them and their reactions, which act beside this list. `%1` is their variable.
+static USER_ALARM: Alarm = Alarm {
+    number: AlarmNumber(700_000),
+    text: "user alarm of the PLC, variable %1",
+    reaction: Reaction::DISPLAY,
+    cancel: Cancel::ByItself,
+};
+
+fn user_alarm(number: AlarmNumber) -> Option<&'static Alarm> {
+    (700_000..700_248).contains(&number.0).then_some(&USER_ALARM)
+}
 
 impl Alarm {
     /// All alarms that the model can raise; not in the order of their numbers.
@@ -17,6 +29,6 @@ impl Alarm {
             table.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &table[index])
         };
         let tables = [CATALOGUE, programs::PROGRAMS, AXIS_EXCHANGE];
-        tables.into_iter().find_map(in_table).or_else(|| programs::of_a_cycle(number))
+        tables.into_iter().find_map(in_table).or_else(|| programs::of_a_cycle(number)).or_else(|| user_alarm(number))
     }
 }

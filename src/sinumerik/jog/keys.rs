@@ -10,20 +10,21 @@
 //! edge. A key that is pressed while an enable is missing stays pending, and moves when the enable comes. An edge during one of these
 //! interruptions is lost. A movement with an end continues to it after feed stop, feed disable and 0 %; everything else drops it.
 
-use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, channel_to_nck};
+use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::limits::Ahead;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::axis::traversing::keys;
-use crate::sinumerik::inputs::{axis_signal, channel_signal};
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::handwheels::{self, active_handwheel};
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
+use crate::sinumerik::user::state::ended;
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
@@ -47,11 +48,12 @@ pub(in crate::sinumerik) const fn key_signal(direction: i8) -> Signal {
 impl State {
     /// Determines whether a movement of a unit is held: override factor 0, feed stop on any of its axes (SIG-06), feed disable.
     pub(in crate::sinumerik) fn take_feed(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
-        let disabled = to_nck.channels[unit.channel].feed_disable();
+        let feed_disable = self.feed_disable(unit.channel, to_nck);
+        let disabled = feed_disable.is_some();
         let stopper = unit.members().find(|&axis| to_nck.axes[axis].feed_stop());
         let stopped = stopper.is_some();
         let holder = stopper.map_or(Input::None, |axis| axis_signal(axis, axis_to_nck::feed_stop, true));
-        let holder = if disabled { channel_signal(unit.channel, channel_to_nck::feed_disable, true) } else { holder };
+        let holder = feed_disable.unwrap_or(holder);
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
             self.axes[axis].feed_override = signals.feed_override();
@@ -60,6 +62,7 @@ impl State {
             let before = self.axes[axis].feed_holder;
             let released = match before {
                 Input::Bit(signal, true) if !stopped && !disabled => Input::Bit(signal, false),
+                Input::Alarm(number) if !stopped && !disabled => ended(number),
                 _ => holder,
             };
             self.axes[axis].feed_held = stopped || disabled;

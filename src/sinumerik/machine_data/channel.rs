@@ -117,7 +117,7 @@ impl Default for PerGroup {
 
 impl Field for PerGroup {
     const KIND: Kind = <u8 as Scalar>::KIND;
-    const COUNT: u8 = 70;
+    const COUNT: u16 = 70;
 
     fn value(&self, index: usize) -> Option<Value> {
         self.0.get(index).map(Scalar::value)

@@ -1,6 +1,6 @@
 //! General machine data, `$MN_`: names, cycles, keys, handwheels, override switches.
 
-use super::table::{PerTable, machine_data};
+use super::table::{Many, PerTable, machine_data};
 
 machine_data! {
 /// The machine data of the whole NC.
@@ -82,6 +82,15 @@ General {
     12070 OVR_FACTOR_SPIND_SPEED ovr_factor_spind_speed: [f64; 31] = SPINDLE_OVERRIDE; "factor", Range::NOT_NEGATIVE, PowerOn;
     /// limit of a binary coded override
     12100 OVR_FACTOR_LIMIT_BIN ovr_factor_limit_bin: f64 = 1.2; "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// integers for the PLC program; the first 32 are in DB4500 of an 828D
+    14510 USER_DATA_INT user_data_int: Many<i32, 256> = Many::default(); "", Range::between(-32_768.0, 32_767.0), PowerOn;
+    /// bytes for the PLC program; the first 32 are in DB4500 of an 828D
+    14512 USER_DATA_HEX user_data_hex: Many<u8, 256> = Many::default(); "", Range::ANY, PowerOn;
+    /// REALs for the PLC program; the first 8 are in DB4500 of an 828D
+    14514 USER_DATA_FLOAT user_data_float: Many<f64, 32> = Many::default(); "", Range::between(-3.4e38, 3.4e38), PowerOn;
+    /// user alarms 700000 to 700247 of an 828D; bit 0: NC start disable; 1: read-in disable; 2: feed disable; 3: emergency stop; 4: PLC stop;
+    /// 6: cleared by DB1600.DBX3000.0; 7: by power off
+    14516 USER_DATA_PLC_ALARM user_data_plc_alarm: Many<u8, 248> = Many::default(); "", Range::ANY, PowerOn;
     /// interface signals; bit 0: the traverse commands 64.6 and 64.7 are output 0 with the request, 1 only while the axis may move
     17900 VDI_FUNCTION_MASK vdi_function_mask: u32 = 0; "", Range::ANY, PowerOn;
     /// points of each table $AN_CEC: at least (_MAX - _MIN) / _STEP + 1; 0 the table does not exist

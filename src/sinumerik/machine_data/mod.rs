@@ -273,7 +273,7 @@ impl MachineData {
             std::iter::once(Owner::Nck).chain(channels.map(Owner::Channel)).chain(axes.map(Owner::Axis)).collect();
         let of_owner = |owner| {
             catalogue().flat_map(move |datum| {
-                (0..datum.count).filter_map(move |index| Target::new(datum.number, owner, index).ok())
+                datum.indices().filter_map(move |index| Target::new(datum.number, owner, index).ok())
             })
         };
         owners.into_iter().flat_map(of_owner).filter(|target| self.get(target) != before.get(target)).collect()

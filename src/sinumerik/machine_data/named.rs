@@ -87,7 +87,8 @@ pub(super) fn resolve(
             ));
         }
     };
-    let index = number.parse().ok().filter(|index| *index < datum.count).ok_or_else(|| bad_index(datum, number))?;
+    let index =
+        number.parse().ok().filter(|index| u16::from(*index) < datum.count).ok_or_else(|| bad_index(datum, number))?;
     Ok(Target { datum, owner, index })
 }
 

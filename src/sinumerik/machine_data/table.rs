@@ -149,7 +149,7 @@ pub struct Datum {
     /// Its permitted values.
     pub range: Range,
     /// Number of its values (2 per encoder, 6 per parameter set, …); 1 without an index.
-    pub count: u8,
+    pub count: u16,
     /// The time at which a stored value takes effect.
     pub effect: Effect,
     /// Only the control writes it. An archive may contain it.
@@ -166,6 +166,11 @@ impl fmt::Display for Datum {
 }
 
 impl Datum {
+    /// The indices of its values.
+    pub fn indices(&self) -> impl Iterator<Item = u8> + use<> {
+        (0..=u8::MAX).take(usize::from(self.count))
+    }
+
     /// The identifier with its prefix, `$MA_GANTRY_AXIS_TYPE`.
     #[must_use]
     pub fn full_identifier(&self) -> String {
@@ -294,14 +299,14 @@ impl Scalar for String {
 /// The type of a datum: one scalar, or several with an index.
 pub(super) trait Field: Clone {
     const KIND: Kind;
-    const COUNT: u8;
+    const COUNT: u16;
     fn value(&self, index: usize) -> Option<Value>;
     fn store(&mut self, index: usize, value: &Value) -> Result<(), String>;
 }
 
 impl<T: Scalar> Field for T {
     const KIND: Kind = T::KIND;
-    const COUNT: u8 = 1;
+    const COUNT: u16 = 1;
     fn value(&self, index: usize) -> Option<Value> {
         (index == 0).then(|| Scalar::value(self))
     }
@@ -317,7 +322,7 @@ impl<T: Scalar> Field for T {
 impl<T: Scalar, const N: usize> Field for [T; N] {
     const KIND: Kind = T::KIND;
     #[expect(clippy::cast_possible_truncation, reason = "no datum has more than 62 values")]
-    const COUNT: u8 = N as u8;
+    const COUNT: u16 = N as u16;
     fn value(&self, index: usize) -> Option<Value> {
         self.get(index).map(Scalar::value)
     }
@@ -347,13 +352,48 @@ impl<T: Copy> PerTable<T> {
 
 impl<T: Scalar> Field for PerTable<T> {
     const KIND: Kind = T::KIND;
-    const COUNT: u8 = 62;
+    const COUNT: u16 = 62;
     fn value(&self, index: usize) -> Option<Value> {
         self.0.get(index / 31)?.get(index % 31).map(Scalar::value)
     }
     fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
         let place = self.0.get_mut(index / 31).and_then(|half| half.get_mut(index % 31));
         *place.ok_or_else(|| format!("an index from 0 to {}", Self::COUNT - 1))? = T::from_value(value)?;
+        Ok(())
+    }
+}
+
+/// Many values, of which most have their default: only those up to the last other one are saved.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Many<T, const N: usize>(Vec<T>);
+
+impl<T: Copy + Default, const N: usize> Many<T, N> {
+    /// A value, from 0; the default beyond the last one that was stored.
+    #[must_use]
+    pub fn get(&self, index: usize) -> T {
+        self.0.get(index).copied().unwrap_or_default()
+    }
+}
+
+impl<T: Scalar + Copy + Default + PartialEq, const N: usize> Field for Many<T, N> {
+    const KIND: Kind = T::KIND;
+    #[expect(clippy::cast_possible_truncation, reason = "no datum has more than 256 values")]
+    const COUNT: u16 = N as u16;
+    fn value(&self, index: usize) -> Option<Value> {
+        (index < N).then(|| Scalar::value(&self.get(index)))
+    }
+    fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
+        if index >= N {
+            return Err(format!("an index from 0 to {}", N - 1));
+        }
+        let value = T::from_value(value)?;
+        if index >= self.0.len() {
+            self.0.resize(index + 1, T::default());
+        }
+        self.0[index] = value;
+        while self.0.last() == Some(&T::default()) {
+            self.0.pop();
+        }
         Ok(())
     }
 }

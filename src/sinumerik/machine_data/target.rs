@@ -53,7 +53,7 @@ impl Target {
                 "write an axis or channel in the brackets only if the datum has one",
             ));
         }
-        if index >= datum.count {
+        if u16::from(index) >= datum.count {
             return Err(bad_index(datum, &index.to_string()));
         }
         Ok(Self { datum, owner, index })

@@ -2,8 +2,8 @@
 //!
 //! Called first in the control's part of a cycle. Requests are levels (O-19): the highest of JOG, MDA, AUTO that is 1 is
 //! selected; if all are 0, the mode does not change; DBX0.4 inhibits a change. Machine functions act within their mode: TEACH IN
-//! in MDA, REF and REPOS in JOG; REF has priority over REPOS. REPOS moves an axis back to the position at which a program was
-//! interrupted. As no program can be interrupted yet, its keys move nothing. MD10720 defines the mode after power on; the default
+//! in MDA, REF and REPOS in JOG; REF has priority over REPOS. NC start takes the axes of an
+//! interrupted program back to its path; the keys of REPOS move nothing. MD10720 defines the mode after power on; the default
 //! is JOG. AUTOMATIC and MDA exclude each other while a program of either runs or is stopped (16913), and so does REF (16914).
 
 use crate::image::{Signal, ToNck, mode_group_from_nck, mode_group_to_nck};

@@ -1,9 +1,10 @@
-//! Start-up of the control: 104.7, then 108.5, 108.6 and 108.7, a few cycles apart (O-20).
+//! Start-up of the control: 104.7, then 108.5, 108.6 and 108.7, a few cycles apart (O-20). Also whether the PLC program runs.
 
 use crate::image::axis_from_nck::drive_ready;
 use crate::image::nck_from_nck::{drives_in_cyclic_operation, drives_ready};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::inputs::{axis_signal, nck_signal};
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::operation::state::RunUp;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
@@ -63,5 +64,21 @@ impl State {
     /// 108.7.
     pub(in crate::sinumerik) fn is_nc_ready(&self) -> bool {
         self.run_up.is_nc_ready() && self.alarms.with_reaction(Reaction::NC_NOT_READY, None).is_none()
+    }
+}
+
+impl Nck {
+    /// The PLC program does not run, or runs again after power on.
+    pub fn plc_missing(&mut self) -> EventId {
+        if !self.state.plc_missing {
+            self.state.plc_missing = true;
+            self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcStopped, EventId::NONE);
+        }
+        self.state.plc_cause
+    }
+
+    /// The PLC program runs again; alarm 2000 stays until power off.
+    pub fn plc_restarted(&mut self) {
+        self.state.plc_missing = false;
     }
 }

@@ -15,9 +15,11 @@ pub(super) mod overrides;
 pub(super) mod programs;
 pub(super) mod sag;
 pub(super) mod spindle;
+mod user;
 
 use arrayvec::ArrayVec;
 
+use crate::image::UserFromNck;
 use crate::sinumerik::machine_data::MachineData;
 use crate::sinumerik::parameters::axis::{AxisParameters, AxisPresence, axis};
 use crate::sinumerik::parameters::channels::{ChannelParameters, channels};
@@ -26,6 +28,7 @@ use crate::sinumerik::parameters::groupings::{Definitions, define};
 use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
 use crate::sinumerik::parameters::programs::{PathOverrides, ProgramParameters, programs};
 use crate::sinumerik::parameters::sag::{SagTables, sag_tables};
+use crate::sinumerik::parameters::user::user_data;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
 use crate::variables::RParameters;
 
@@ -98,6 +101,8 @@ pub struct Parameters {
     pub(super) path_overrides: PathOverrides,
     /// For programs, of each channel.
     pub(super) programs: PerChannel<Option<Box<ProgramParameters>>>,
+    /// On an 828D: what it shows the PLC of MD14510 to MD14516.
+    pub(super) user: Option<Box<UserFromNck>>,
 }
 
 impl Parameters {
@@ -161,7 +166,14 @@ impl Parameters {
                 data.mode_group(channel).map(|_| Box::new(programs(data, channel, &axes, cycle)))
             }),
             axes,
+            user: None,
         }
+    }
+
+    /// The same on an 828D.
+    #[must_use]
+    pub(super) fn on_828d(self, data: &MachineData) -> Self {
+        Self { user: Some(Box::new(user_data(data))), ..self }
     }
 
     /// The existing axes.

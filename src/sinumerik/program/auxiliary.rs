@@ -1,4 +1,4 @@
-//! Output of auxiliary functions to the PLC (nc_programs.md 2.3 to 2.6): values and change bits in DB21.DBB58 to 193, decoded M functions in
+//! Output of auxiliary functions to the PLC: values and change bits in DB21.DBB58 to 193, decoded M functions in
 //! 194 to 206.
 //!
 //! A package is output in one cycle of the NCK and shown for one scan of the PLC. It is acknowledged when the answer of a scan that has seen it has
@@ -7,7 +7,7 @@
 //! MD22100 = 1 the program does not wait for them at all.
 //!
 //! Choices where the manuals leave one: an M function is decoded with extension 0; M3 to M5, M19, M70 and M40 to M45 also with the number of the
-//! master spindle, or 1 without a spindle (nc_programs.md 2.5); values stay until the next output of their place. RESET does not withdraw what is output.
+//! master spindle, or 1 without a spindle; values stay until the next output of their place. RESET does not withdraw what is output.
 
 use std::collections::VecDeque;
 

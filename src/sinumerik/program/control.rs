@@ -1,4 +1,4 @@
-//! Program control: what the PLC selects for programs, and when it takes effect (nc_programs.md 3.4, 6.3, 6.4).
+//! Program control: what the PLC selects for programs, and when it takes effect.
 //!
 //! | selected by | shown | takes effect |
 //! |---|---|---|

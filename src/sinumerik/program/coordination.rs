@@ -1,4 +1,4 @@
-//! Coordination of channels: INIT, START, WAITE, SETM, CLEARM, WAITM, WAITMC (nc_programs.md 1.6).
+//! Coordination of channels: INIT, START, WAITE, SETM, CLEARM, WAITM, WAITMC.
 //!
 //! A channel that waits shows 35.1. A wait is judged once per cycle for all channels, with the marks and states at its beginning, so that no
 //! channel misses a mark that another one takes away. A mark of WAITM or WAITMC is taken away when its channel goes on; a channel that did not
@@ -217,7 +217,7 @@ impl State {
             refuse(self, alarms::ALARM_PENDING, ACTION);
         } else if !self.is_referenced(channel, parameters) {
             refuse(self, START_WITHOUT_REFERENCE, ACTION);
-        } else if to_nck.channels[channel].nc_start_disable() || self.stop(channel, parameters).is_some() {
+        } else if self.is_start_disabled(channel, to_nck) || self.stop(channel, parameters).is_some() {
             // As NC start: no effect.
         } else {
             match selected.filter(|path| library.program(path).is_some()) {

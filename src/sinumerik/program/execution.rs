@@ -44,7 +44,7 @@ pub(super) enum Progress {
     Ended,
 }
 
-/// What is only read while programs run.
+/// What programs read, and what they write into machine data and compensation tables.
 pub(super) struct Sources<'a> {
     pub library: &'a Library,
     pub stored: &'a MachineData,
@@ -186,7 +186,8 @@ impl State {
         let signals = &stage.to_nck.channels[stage.channel];
         let single =
             signals.activate_single_block() && !run.queue.front().is_some_and(|one| one.origin.is_single_block_off);
-        signals.read_in_disable() || signals.nc_stop_at_block_limit() || single || self.is_axis_wanted(stage.channel)
+        let disabled = self.is_read_in_disabled(stage.channel, stage.to_nck) || signals.nc_stop_at_block_limit();
+        disabled || single || self.is_axis_wanted(stage.channel)
     }
 
     /// Stops the path at the end of its block while something holds the change to the next one.
@@ -400,7 +401,7 @@ impl State {
         if run.waits_for_command_axis(stage) {
             return Progress::Waits;
         }
-        if stage.to_nck.channels[stage.channel].read_in_disable() || run.read_in_disabled {
+        if self.is_read_in_disabled(stage.channel, stage.to_nck) || run.read_in_disabled {
             return Progress::Waits;
         }
         if let Some(alarm) = run.still_positioned(stage.own) {

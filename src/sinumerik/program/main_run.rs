@@ -1,4 +1,4 @@
-//! Variables of the main run: `$AC_TIMER[n]` and `$AC_MARKER[n]` (nc_programs.md 1.8).
+//! Variables of the main run: `$AC_TIMER[n]` and `$AC_MARKER[n]`.
 
 use serde::{Deserialize, Serialize};
 

@@ -128,7 +128,7 @@ impl Preparing<'_> {
         }
     }
 
-    /// nc_programs.md 1.5: what the kind and the group of an M function say.
+    /// What the kind and the group of an M function say.
     fn output_time(&self, function: &AuxiliaryFunction) -> OutputTime {
         match function.kind {
             // S is predefined, and that has priority over the type (MD22210).

@@ -6,7 +6,7 @@
 use crate::image::{ToNck, axis_to_nck, channel_to_nck};
 use crate::motion::path::{Feed, Overrides, Path, PathBlock, PerPathAxis, Way};
 use crate::sinumerik::axis::travel::Travel;
-use crate::sinumerik::inputs::{axis_signal, channel_number, channel_signal};
+use crate::sinumerik::inputs::{axis_signal, channel_number};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::positioning::Positioning;
@@ -59,10 +59,8 @@ impl State {
 
     /// What holds the path: feed disable, feed stop or a missing enable of an axis that moves, or an override of 0 %.
     fn holder(&self, run: &Run, stage: &Stage<'_>) -> Held {
-        let signals = &stage.to_nck.channels[stage.channel];
-        if signals.feed_disable() {
-            let input = channel_signal(stage.channel, channel_to_nck::feed_disable, true);
-            return Held::By(Rule::HeldByFeedStop, input);
+        if let Some(disabled) = self.feed_disable(stage.channel, stage.to_nck) {
+            return Held::By(Rule::HeldByFeedStop, disabled);
         }
         if let Some(held) = self.spindle_stands(run, stage) {
             return Held::By(held.0, held.1);
@@ -283,12 +281,11 @@ impl State {
             };
             let on = |unit: &Unit| unit.members().all(|member| self.axes[member].enabling.is_on());
             let stopper = |unit: &Unit| unit.members().find(|member| stage.to_nck.axes[*member].feed_stop());
-            let feed_disable = of_channel.feed_disable();
+            let feed_disable = self.feed_disable(stage.channel, stage.to_nck);
             let held = if held == Held::Stopped {
                 held
-            } else if feed_disable {
-                let input = channel_signal(stage.channel, channel_to_nck::feed_disable, true);
-                Held::By(Rule::HeldByFeedStop, input)
+            } else if let Some(disabled) = feed_disable {
+                Held::By(Rule::HeldByFeedStop, disabled)
             } else if let Some(stopper) = unit.as_ref().and_then(stopper) {
                 Held::By(Rule::HeldByFeedStop, axis_signal(stopper, axis_to_nck::feed_stop, true))
             } else if !unit.as_ref().is_some_and(on) {

@@ -1,4 +1,4 @@
-//! G74: axes approach their reference points because a program says so (nc_programs.md 1.7).
+//! G74: axes approach their reference points because a program says so.
 //!
 //! The approach is that of REF, in the direction of MD34010. The block ends when every axis is referenced; a gantry grouping must also be
 //! synchronised: while it waits for 29.4 the block waits, and the condition "REF" of its sections counts as met (O-08). A stop of the program

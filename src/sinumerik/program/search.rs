@@ -1,4 +1,4 @@
-//! Block search (nc_programs.md 3.5): the program goes on at a block that the operator names.
+//! Block search: the program goes on at a block that the operator names.
 //!
 //! | type | what it does |
 //! |---|---|

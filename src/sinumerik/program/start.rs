@@ -1,4 +1,4 @@
-//! NC start and its refusals, stop, RESET, the end of a program, and what a change of the mode does to it (nc_programs.md 3.1 to 3.3).
+//! NC start and its refusals, stop, RESET, the end of a program, and what a change of the mode does to it.
 
 use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_from_nck};
 use crate::motion::path::{PATH_AXES, Path, PathLimits};
@@ -36,7 +36,7 @@ impl State {
         let place = Place::Channel(channel);
         let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
         let stops = signals.nc_stop() || signals.nc_stop_at_block_limit() || signals.nc_stop_axes_plus_spindles();
-        if signals.nc_start_disable() || stops {
+        if self.is_start_disabled(channel, to_nck) || stops {
             return;
         }
         if mode == Mode::Jog {

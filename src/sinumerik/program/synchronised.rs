@@ -1,4 +1,4 @@
-//! Synchronised actions: conditions that the channel evaluates in its cycles, and what it then does (nc_programs.md 1.6).
+//! Synchronised actions: conditions that the channel evaluates in its cycles, and what it then does.
 //!
 //! An action with `ID` ends with its program, one with `IDS` stays until CANCEL, one without an ID ends with the next block. Every cycle evaluates
 //! them before the path moves, in the order in which they began. A POS moves its axis beside the path, as POSA (P-69).

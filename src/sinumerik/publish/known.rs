@@ -9,6 +9,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisPresence;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis};
+use crate::variables::AxisValues;
 
 /// The bits of a byte of a block that rows give.
 type Bits = (Block, u16, u8);
@@ -50,10 +51,16 @@ fn collect() -> Vec<Bits> {
     let spindle = &mut data.axes[axis(4)];
     (spindle.spind_assign_to_machax, spindle.is_rot_ax, spindle.rot_is_modulo) = (1, true, true);
     let parameters = Parameters::new(&data, &presence);
+    let of_828d = Parameters::new(&data, &presence).on_828d(&data);
     let state = State::new(&parameters);
+    let mut requested = state.clone();
+    requested.user.requests = [true; 2];
     let mut bits = Vec::new();
     let mut of = |block, show: &dyn Fn(&mut Collected<'_>)| show(&mut Collected { block, bits: &mut bits });
-    of(Block::Nck, &|rows| state.show_nck(&parameters, rows));
+    of(Block::Nck, &|rows| {
+        state.show_nck(&parameters, rows);
+        state.show_user(&of_828d, rows);
+    });
     of(Block::ModeGroup, &|rows| {
         state.show_mode_group(ModeGroupNumber::FIRST, &parameters, rows);
         state.show_selection(ModeGroupNumber::FIRST, rows);
@@ -62,6 +69,7 @@ fn collect() -> Vec<Bits> {
         state.show_channel(ChannelNumber::FIRST, &parameters, rows);
         state.show_auxiliary(ChannelNumber::FIRST, &parameters, rows);
         state.show_search(ChannelNumber::FIRST, rows);
+        state.show_auxiliary_828d(ChannelNumber::FIRST, &of_828d, rows);
     });
     for (axis, _) in kinds {
         of(Block::Axis, &|rows| {
@@ -70,6 +78,7 @@ fn collect() -> Vec<Bits> {
             state.show_movement(axis, own, &parameters, rows);
             state.show_gantry_axis(axis, rows);
             state.show_spindle(axis, &parameters, rows);
+            requested.show_axis_828d(axis, &AxisValues::default(), &of_828d, rows);
         });
     }
     bits

@@ -13,6 +13,7 @@ mod channel;
 mod conditions;
 mod control;
 pub(super) mod known;
+mod own_828d;
 mod program;
 mod rows;
 mod single_axis;
@@ -21,8 +22,8 @@ mod spindle;
 use zerocopy::IntoBytes;
 
 use crate::image::{
-    AxisFromNck, ChannelAuxiliary, ChannelFromNck, ChannelSearchFromNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
-    NckFromNck,
+    Axis828d, AxisFromNck, ChannelAuxiliary, ChannelAuxiliary828d, ChannelFromNck, ChannelSearchFromNck, FromNck, Hmi,
+    ModeGroupFromNck, ModeGroupHmi, NckFromNck, UserFromNck,
 };
 use crate::motion::Motion;
 use crate::sinumerik::jog::state::Movement;
@@ -31,7 +32,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::publish::rows::{Asked, Why, Written};
 use crate::sinumerik::state::State;
-use crate::units::{AxisNumber, AxisSet, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, Position};
 use crate::variables::{AxisValues, EventId, Place, Variables};
 
 impl Nck {
@@ -82,6 +83,7 @@ impl Nck {
             }
             state.publish_grouping(index, from_nck, parameters, variables);
         }
+        state.publish_828d(parameters, from_nck, variables);
         if state.alarms.take_changed() {
             variables.alarms.publish(state.alarms.iter().map(|(alarm, _)| *alarm));
         }
@@ -93,7 +95,10 @@ impl Nck {
         let mut asked = Asked::new(byte, bit);
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         match place {
-            Place::Nck => state.show_nck(parameters, &mut asked),
+            Place::Nck => {
+                state.show_nck(parameters, &mut asked);
+                state.show_user(parameters, &mut asked);
+            }
             Place::ModeGroup(group) => {
                 state.show_mode_group(group, parameters, &mut asked);
                 state.show_selection(group, &mut asked);
@@ -102,6 +107,7 @@ impl Nck {
                 state.show_channel(channel, parameters, &mut asked);
                 state.show_auxiliary(channel, parameters, &mut asked);
                 state.show_search(channel, &mut asked);
+                state.show_auxiliary_828d(channel, parameters, &mut asked);
             }
             // What a silent axis had shown went with power off.
             Place::Axis(axis) if parameters.axes[axis].silent => {}
@@ -110,6 +116,7 @@ impl Nck {
                 state.show_movement(axis, &parameters.axes[axis], parameters, &mut asked);
                 state.show_spindle(axis, parameters, &mut asked);
                 state.show_gantry_axis(axis, &mut asked);
+                state.show_axis_828d(axis, &AxisValues::default(), parameters, &mut asked);
             }
         }
         let cause = match asked.found() {
@@ -123,6 +130,23 @@ impl Nck {
 }
 
 impl State {
+    /// What only the 828D has. It has one channel and eight axes.
+    fn publish_828d(&self, parameters: &Parameters, from_nck: &mut FromNck, variables: &Variables) {
+        if parameters.user.is_none() {
+            return;
+        }
+        self.show_user(parameters, &mut Written::new(from_nck.user.as_mut_bytes(), UserFromNck::FIRST));
+        let channel = ChannelNumber::FIRST;
+        let bytes = from_nck.auxiliary_828d[channel].as_mut_bytes();
+        self.show_auxiliary_828d(channel, parameters, &mut Written::new(bytes, ChannelAuxiliary828d::FIRST));
+        for axis in AxisNumber::up_to(8).filter(|axis| parameters.existing.contains(*axis)) {
+            if !parameters.axes[axis].silent {
+                let mut rows = Written::new(from_nck.axes_828d[axis].as_mut_bytes(), Axis828d::FIRST);
+                self.show_axis_828d(axis, &variables.axes[axis], parameters, &mut rows);
+            }
+        }
+    }
+
     fn publish_grouping(
         &self,
         index: usize,

@@ -15,11 +15,11 @@
 
 use crate::control::Log;
 use crate::control::next;
-use crate::image::{AxisToNck, axis_to_nck, channel_to_nck};
+use crate::image::{AxisToNck, axis_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::inputs::{axis_signal, channel_signal};
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::axis::{AxisParameters, Kind};
 use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::referencing::state::{APPROACH_CHART, Approach, Phase, TRANSITIONS};
@@ -228,7 +228,7 @@ impl Approach {
         let input = if let Some((datum, value)) = view.parameters.approach_hindered_by(view.encoder) {
             Input::Datum(datum, Some(view.number), value)
         } else if view.axis.feed_disabled {
-            channel_signal(view.parameters.channel, channel_to_nck::feed_disable, true)
+            view.axis.feed_holder
         } else if creeping && view.axis.feed_factor <= 0.0 {
             view.axis.zero_override(view.number).1
         } else {

@@ -180,8 +180,9 @@ impl State {
             let pressed = channel_to_nck::nc_stop_axes_plus_spindles;
             return Some((Rule::NcStop, channel_signal(unit.channel, pressed, true)));
         }
-        if channel.feed_disable() && !(is_plc_axis && parameters.axes[axis].plc_axis.ignores_feed_disable) {
-            return Some((Rule::HeldByFeedStop, channel_signal(unit.channel, channel_to_nck::feed_disable, true)));
+        let ignores_feed_disable = is_plc_axis && parameters.axes[axis].plc_axis.ignores_feed_disable;
+        if let Some(disabled) = self.feed_disable(unit.channel, to_nck).filter(|_| !ignores_feed_disable) {
+            return Some((Rule::HeldByFeedStop, disabled));
         }
         if let Some(stopper) = unit.members().find(|member| to_nck.axes[*member].feed_stop()) {
             return Some((Rule::HeldByFeedStop, axis_signal(stopper, axis_to_nck::feed_stop, true)));

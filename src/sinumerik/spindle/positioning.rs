@@ -252,7 +252,12 @@ impl State {
     }
 
     /// The override of a spindle.
-    pub(super) fn spindle_factor(&self, number: AxisNumber, own: &SpindleParameters, signals: &AxisToNck) -> f64 {
+    pub(in crate::sinumerik) fn spindle_factor(
+        &self,
+        number: AxisNumber,
+        own: &SpindleParameters,
+        signals: &AxisToNck,
+    ) -> f64 {
         super::turning::spindle_factor(own, signals, self.axes[number].feed_factor)
     }
 }

@@ -197,13 +197,21 @@ struct Turn {
 }
 
 impl Spindle {
+    /// The direction in which a program or a key turns it, with the inversion of 17.6; 0 if it is not to turn.
+    pub(in crate::sinumerik) fn direction_of_turning(&self, signals: &AxisToNck) -> i8 {
+        let inverted = if signals.invert_m3_m4() { -1 } else { 1 };
+        match self.jog {
+            0 if self.is_programmed() => self.direction * inverted,
+            key => key,
+        }
+    }
+
     fn turn(&self, own: &SpindleParameters, signals: &AxisToNck, factor: f64) -> Turn {
         if self.jog != 0 {
             let speed = own.jog_speeds[usize::from(signals.rapid_traverse_override())];
             return Turn { direction: self.jog, speed: speed * factor, by_key: true };
         }
-        let inverted = if signals.invert_m3_m4() { -1 } else { 1 };
-        let direction = if self.is_programmed() { self.direction * inverted } else { 0 };
+        let direction = self.direction_of_turning(signals);
         Turn { direction, speed: self.speed * REVOLUTION_PER_MINUTE * factor, by_key: false }
     }
 }

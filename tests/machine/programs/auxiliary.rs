@@ -49,7 +49,7 @@ fn values_and_extensions_stand_at_their_places() {
     assert_eq!(session.value("CHAN1.h_function_1").unwrap(), 7.5);
 }
 
-/// nc_programs.md 2.6: the motion waits for what is output before it; M0 and M30 come at the end of the motion.
+/// The motion waits for what is output before it; M0 and M30 come at the end of the motion.
 #[test]
 fn an_m_function_before_the_motion_is_output_before_the_axis_moves() {
     let mut session = automatic("X10 F3000 M8\nY10 M0\nM30");

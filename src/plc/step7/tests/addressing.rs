@@ -1,4 +1,4 @@
-//! Addresses in memory and in registers, data block registers: step7.md 2.9.
+//! Addresses in memory and in registers, data block registers.
 
 use super::{Plc, registers, trial};
 use crate::plc::step7::engine::Fault;

@@ -1,4 +1,4 @@
-//! Declarations, data blocks, initial and actual values: step7.md 1.2 and 1.3.
+//! Declarations, data blocks, initial and actual values.
 
 use super::{Plc, findings, program};
 use crate::plc::step7::{Settings, Source, SourceKind, SymbolForm, compile};

@@ -1,4 +1,4 @@
-//! Calls with every kind of parameter, instances and multi-instances, registers: step7.md 2.8.
+//! Calls with every kind of parameter, instances and multi-instances, registers.
 
 use super::{Plc, findings};
 use crate::plc::step7::engine::Fault;

@@ -1,4 +1,4 @@
-//! Faults: OB121 and OB122, and the stop of the PLC with its place: step7.md 3.
+//! Faults: OB121 and OB122, and the stop of the PLC with its place.
 
 use super::{Plc, SECOND, ob1};
 use crate::plc::step7::engine::{CpuOptions, Fault};

@@ -1,4 +1,4 @@
-//! Each operation on the accumulators with the status word before and after: step7.md 2.3 and 6.3.
+//! Each operation on the accumulators with the status word before and after.
 
 use super::{registers, trial, trial_with};
 use crate::plc::step7::engine::{CpuOptions, Fault, Status};

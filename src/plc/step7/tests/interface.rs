@@ -1,4 +1,4 @@
-//! Languages, labels, findings: step7.md 1.
+//! Languages, labels, findings.
 
 use super::{Plc, findings, ob1};
 use crate::plc::step7::{BlockKind, BlockName, FindingKind, Language, Settings, Source, compile};

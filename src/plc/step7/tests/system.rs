@@ -1,4 +1,4 @@
-//! Built-in blocks: step7.md 4.
+//! Built-in blocks.
 
 use super::{Plc, SECOND, ob1, program};
 

@@ -1,4 +1,4 @@
-//! S5 timers and counters to the cycle: step7.md 2.5 and 2.6.
+//! S5 timers and counters to the cycle.
 
 use super::{Plc, SECOND};
 use crate::plc::step7::engine::Fault;

@@ -2,6 +2,7 @@
 
 use crate::control::{Condition, Fact};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
+use crate::motion::Brake;
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::controllers::{ControllerState, STEP};
 use crate::sinumerik::parameters::dynamics::StopLimit;
@@ -30,8 +31,8 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
     ),
     Row::with(
         axis_from_nck::position_controller_active,
-        |look, axis| look.controllers(axis, 2),
-        |look, axis| look.switched_off(axis, 2),
+        |look, axis| look.position_control(axis, true),
+        |look, axis| look.position_control(axis, false),
     ),
     Row::with(
         axis_from_nck::speed_controller_active,
@@ -45,7 +46,11 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
     ),
     Row::new(axis_from_nck::ramp_function_generator_disable_active, |look, owner| look.fast_stop(owner)),
     Row::new(axis_from_nck::drive_test_travel_request, |look, axis| look.test_travel(axis)),
-    Row::new(axis_from_nck::holding_brake_open, |look, axis| look.brake(axis)),
+    Row::with(
+        axis_from_nck::holding_brake_open,
+        |look, axis| look.brake(axis, true),
+        |look, axis| look.brake(axis, false),
+    ),
     Row::new(axis_from_nck::drive_ready, |look, owner| look.drive_ready(owner)),
     Row::with(
         axis_from_nck::pulses_enabled,
@@ -87,8 +92,21 @@ impl Look<'_> {
             self.axis(number, axis_from_nck::position_controller_active, true),
             at_rest.into(),
             self.setpoint_rests(number),
+            self.not_moved_beside(number),
             self.deviation(number, limit),
         ])
+    }
+
+    /// Neither a DRF offset nor the function generator moves an axis: they are beside the setpoint of its own movement.
+    fn not_moved_beside(self, axis: AxisNumber) -> Condition {
+        let state = &self.state.axes[axis];
+        let found = match (state.overlay.command != 0, state.test_travel.moves) {
+            (true, _) => "DRF",
+            (false, true) => "the function generator",
+            (false, false) => "none",
+        };
+        let what = format!("movement of {} beside its setpoint", self.axis_name(axis));
+        Fact::new(what, found, "none", found == "none").into()
     }
 
     pub(super) fn setpoint_rests(self, axis: AxisNumber) -> Condition {
@@ -125,9 +143,21 @@ impl Look<'_> {
         let unit = self.unit(number);
         if !self.state.axes[number].travel.is_pending() {
             let commands = [axis_from_nck::traverse_command_minus, axis_from_nck::traverse_command_plus];
-            return Condition::Any(commands.map(|command| self.axis(number, command, true)).into());
+            let commanded = Condition::Any(commands.map(|command| self.axis(number, command, true)).into());
+            if self.state.axes[number].compensation.command == 0 {
+                return commanded;
+            }
+            // The command of a compensation is not one of a movement (SIG-10).
+            let what = format!("movement of {} in addition to its compensation", self.axis_name(number));
+            return Condition::All(vec![commanded, Fact::new(what, "none", "one", false).into()]);
+        }
+        if self.state.single.axes[unit.leader()].order.is_some() {
+            return Condition::All(self.not_held_alone(&unit));
         }
         let mut all = vec![self.may_move(&unit), self.not_held(&unit)];
+        if self.spindle(number).is_none() {
+            all.extend(self.no_spindle_awaited(unit.channel));
+        }
         all.extend(unit.members().flat_map(|axis| {
             let enable = self.axis(axis, axis_to_nck::controller_enable, true);
             [enable, self.selects_one(axis), self.pulses_enabled(axis), self.no_follow_up_alarm(axis)]
@@ -200,12 +230,50 @@ impl Look<'_> {
         ])
     }
 
-    /// The brake opens with pulses and speed controller, or by 20.5.
-    fn brake(self, axis: AxisNumber) -> Condition {
-        Condition::Any(vec![
-            self.axis(axis, axis_to_nck::open_holding_brake, true),
-            Condition::All(vec![self.pulses_enabled(axis), self.controllers(axis, 1)]),
-        ])
+    /// The drive opens the brake when pulses and speed controller hold the axis, or by 20.5, and closes it when the axis is switched off.
+    /// The brake takes its time.
+    fn brake(self, axis: AxisNumber, wanted: bool) -> Condition {
+        let (state, name) = (&self.state.axes[axis], self.axis_name(axis));
+        let found = match state.brake {
+            Brake::None => "none",
+            Brake::Closed => "closed",
+            Brake::Moving => "opens or closes",
+            Brake::Open => "open",
+        };
+        let is_open = state.brake == Brake::Open;
+        let word = if wanted { "open" } else { "not open" };
+        let shown = Fact::new(format!("holding brake of {name} (plant.toml)"), found, word, is_open == wanted);
+        if state.brake == Brake::None {
+            return shown.into();
+        }
+        shown.after(|| {
+            let holds = matches!(state.enabling.control, ControllerState::Holding(_));
+            let off = fact(format!("{name} is at rest and about to be switched off"), holds);
+            let by_plc = self.axis(axis, axis_to_nck::open_holding_brake, wanted);
+            if wanted {
+                let off = Condition::from(off).opposite();
+                let by_drive = Condition::All(vec![self.pulses_enabled(axis), self.controllers(axis, 1), off]);
+                let moves = fact(format!("the brake of {name} has had its time"), state.brake != Brake::Moving);
+                Condition::All(vec![Condition::Any(vec![by_plc, by_drive]), moves.into()])
+            } else {
+                let off = [off.into(), self.pulses_disabled(axis), self.switched_off(axis, 1)];
+                Condition::All(vec![by_plc, Condition::Any(off.into())])
+            }
+        })
+    }
+
+    /// 61.5: the position controller; of a spindle, also that its loop is not open for speed control.
+    fn position_control(self, axis: AxisNumber, wanted: bool) -> Condition {
+        let controller = if wanted { self.controllers(axis, 2) } else { self.switched_off(axis, 2) };
+        if self.spindle(axis).is_none() {
+            return controller;
+        }
+        let open = self.state.axes[axis].speed_controlled;
+        let found = if open { "speed control" } else { "position control" };
+        let word = if wanted { "position control" } else { "speed control" };
+        let what = format!("loop of the spindle {}", self.axis_name(axis));
+        let of_loop = Fact::new(what, found, word, open != wanted).into();
+        if wanted { Condition::All(vec![controller, of_loop]) } else { Condition::Any(vec![controller, of_loop]) }
     }
 
     fn pulses_enabled(self, axis: AxisNumber) -> Condition {
@@ -241,8 +309,16 @@ impl Look<'_> {
             ControllerState::Braking(_) => "brakes before it is switched off".to_owned(),
             ControllerState::Holding(_) => "waits for its brake before it is switched off".to_owned(),
         };
-        Fact::new(format!("{name} of {}", self.axis_name(number)), found, "on", on)
-            .after(|| self.enables(&self.unit(number)))
+        Fact::new(format!("{name} of {}", self.axis_name(number)), found, "on", on).after(|| {
+            let enables = self.enables(&self.unit(number));
+            // Position control begins when the brake is open.
+            let waits = which == 2 && !matches!(axis.brake, Brake::None | Brake::Open);
+            if waits {
+                Condition::All(vec![enables, self.axis(number, axis_from_nck::holding_brake_open, true)])
+            } else {
+                enables
+            }
+        })
     }
 
     /// What switches position control of a unit on: the enables of each of its axes, and nothing that forbids it (SIG-01).
@@ -280,6 +356,9 @@ impl Look<'_> {
                 let unit = self.unit(number);
                 let standing = unit.members().map(|axis| self.stands(axis));
                 return Condition::All(standing.collect());
+            }
+            if matches!(axis.enabling.control, ControllerState::Holding(_)) {
+                return fact(format!("the brake of {name} is closed"), axis.brake == Brake::Closed).into();
             }
             self.enables(&self.unit(number)).opposite()
         })

@@ -1,10 +1,13 @@
 //! Conditions of the signals of the NCK, the mode groups and the channels: start-up, ready, modes, states.
 
 use crate::control::{Condition, Fact};
-use crate::image::{axis_from_nck, channel_from_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck, nck_to_nck};
+use crate::image::{
+    UserFromNck, axis_from_nck, channel_from_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck, nck_to_nck,
+};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::operation::state::{MachineFunction, Mode};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
 
 /// DB10.
@@ -27,6 +30,11 @@ pub(super) const NCK: &[Row<()>] = &[
         })
         .opposite()
     }),
+    Row::new(UserFromNck::SIGNALS[0], |look, ()| look.user_alarm(UserReaction::NcStart, true).into()),
+    Row::new(UserFromNck::SIGNALS[1], |look, ()| look.user_alarm(UserReaction::ReadIn, true).into()),
+    Row::new(UserFromNck::SIGNALS[2], |look, ()| look.user_alarm(UserReaction::Feed, true).into()),
+    Row::new(UserFromNck::SIGNALS[3], |look, ()| look.user_alarm(UserReaction::EmergencyStop, true).into()),
+    Row::new(UserFromNck::SIGNALS[4], |look, ()| look.user_alarm(UserReaction::PlcStop, true).into()),
 ];
 
 /// DB11.
@@ -113,7 +121,13 @@ impl Look<'_> {
     }
 
     fn emergency_stop(self) -> Condition {
-        self.emergency_fact(true).after(|| self.nck(nck_to_nck::emergency_stop, true))
+        self.emergency_fact(true).after(|| {
+            let request = self.nck(nck_to_nck::emergency_stop, true);
+            match self.parameters.user {
+                None => request,
+                Some(_) => Condition::Any(vec![request, self.user_alarm(UserReaction::EmergencyStop, true).into()]),
+            }
+        })
     }
 
     fn no_emergency_stop(self) -> Condition {
@@ -122,7 +136,9 @@ impl Look<'_> {
             let resets = groups.map(|group| self.mode_group(group, mode_group_to_nck::mode_group_reset, true));
             let request = self.nck(nck_to_nck::emergency_stop, false);
             let acknowledged = self.nck(nck_to_nck::acknowledge_emergency_stop, true);
-            Condition::All([request, acknowledged].into_iter().chain(resets).collect())
+            let alarm =
+                self.parameters.user.as_ref().map(|_| self.user_alarm(UserReaction::EmergencyStop, false).into());
+            Condition::All([request, acknowledged].into_iter().chain(alarm).chain(resets).collect())
         })
     }
 

@@ -2,7 +2,7 @@
 //! `jog/handwheels.rs` and `jog/increments.rs` test.
 
 use crate::control::{Condition, Fact};
-use crate::image::{Signal, axis_from_nck, axis_to_nck, mode_group_from_nck, nck_hmi, nck_to_nck};
+use crate::image::{Signal, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck, nck_hmi, nck_to_nck};
 use crate::sinumerik::jog::state::Function;
 use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::units::{AxisNumber, ModeGroupNumber};
@@ -98,14 +98,21 @@ impl Look<'_> {
 
     /// The handwheel that moves an axis, 0 to 2: assigned to it, and none with a smaller number.
     fn handwheel(self, number: AxisNumber, handwheel: usize, wanted: bool) -> Condition {
-        let active = self.state.axes[number].jogging.handwheels;
+        let axis = &self.state.axes[number];
+        let active = axis.jogging.handwheels | axis.overlay.handwheels;
         let found = if active == 0 { "none".to_owned() } else { (active.trailing_zeros() + 1).to_string() };
         let not = if wanted { "" } else { "not " };
         let holds = (active >> handwheel & 1 == 1) == wanted;
         let what = format!("handwheel of {}", self.axis_name(number));
         Fact::new(what, found, format!("{not}{}", handwheel + 1), holds).after(|| {
             let unit = self.unit(number);
-            let mut all = vec![self.only_jog(unit.mode_group), self.assigned(number, handwheel)];
+            let programs = [mode_group_from_nck::active_mode_automatic, mode_group_from_nck::active_mode_mdi];
+            let drf = Condition::All(vec![
+                Condition::Any(programs.map(|mode| self.mode_group(unit.mode_group, mode, true)).into()),
+                self.channel(unit.channel, channel_to_nck::activate_drf, true),
+            ]);
+            let mode = Condition::Any(vec![self.only_jog(unit.mode_group), drf]);
+            let mut all = vec![mode, self.assigned(number, handwheel)];
             all.extend((0..handwheel).map(|other| self.assigned(number, other).opposite()));
             if unit.leader() != number {
                 // MIS-01.
@@ -154,6 +161,7 @@ impl Look<'_> {
                 axis_from_nck::handwheel_3_active,
             ];
             let all = Condition::All(vec![
+                self.only_jog(self.unit(axis).mode_group),
                 Condition::Any(active.map(|active| self.axis(axis, active, true)).into()),
                 self.axis(axis, axis_to_nck::invert_handwheel_direction_of_rotation, true),
             ]);

@@ -8,6 +8,7 @@ use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::inputs::required;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::state::{State, Unit};
+use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{Place, axis_name, place_name, six_decimals};
 
@@ -85,6 +86,23 @@ impl<'a> Look<'a> {
 
     pub(super) fn channel(self, channel: ChannelNumber, signal: Signal, wanted: bool) -> Condition {
         required(Place::Channel(channel), signal, wanted)
+    }
+
+    /// Neither a signal nor a user alarm of an 828D with the same reaction disables something of a channel.
+    pub(super) fn not_disabled(self, channel: ChannelNumber, signal: Signal, reaction: UserReaction) -> Condition {
+        let own = self.channel(channel, signal, false);
+        if self.parameters.user.is_none() {
+            return own;
+        }
+        Condition::All(vec![own, self.user_alarm(reaction, false).into()])
+    }
+
+    /// Whether a user alarm with a reaction is active.
+    pub(super) fn user_alarm(self, reaction: UserReaction, wanted: bool) -> Fact {
+        let alarm = self.state.user.alarm(reaction);
+        let found = alarm.map_or_else(|| "none".to_owned(), |alarm| alarm.to_string());
+        let what = format!("user alarm with MD14516 bit {}", reaction as usize);
+        Fact::new(what, found, if wanted { "one" } else { "none" }, alarm.is_some() == wanted)
     }
 
     pub(super) fn mode_group(self, group: ModeGroupNumber, signal: Signal, wanted: bool) -> Condition {

@@ -13,6 +13,7 @@
 //! | `referencing.rs` | 60.4, 60.5, 33.0 |
 //! | `gantry.rs` | 101.x |
 //! | `motion.rs` | 64.4 to 64.7, and what stops and holds movements |
+//! | `spindle.rs` | 60.0, 82.3, 83.0 to 83.7, 84.5 to 84.7, 85.5 |
 //! | `jog.rs` | handwheels, increments: 64.0 to 64.2, 65.x, 67.0, DB11 8.x |
 //! | `control.rs` | DB10, DB11, DB21 |
 //! | `program.rs` | DB21 32.5, 33.5, 35.x, 58 to 206 |
@@ -29,6 +30,7 @@ mod motion;
 mod program;
 mod referencing;
 mod single_axis;
+mod spindle;
 
 use crate::control::{Condition, Question};
 use crate::image::{NckHmi, ToNck};
@@ -64,6 +66,7 @@ impl Nck {
                     gantry::ROWS,
                     motion::ROWS,
                     jog::ROWS,
+                    spindle::ROWS,
                 ];
                 found.iter().find_map(|rows| look.find(rows, axis, question))
             }
@@ -88,10 +91,8 @@ mod tests {
         let has_conditions = |signal: &Signal| match signal.block {
             Block::Nck => is_in(control::NCK, signal),
             Block::ModeGroup => is_in(control::MODE_GROUP, signal) || is_in(jog::MODE_GROUP, signal),
-            Block::Channel if signal.byte >= 58 || signal.name == "revolutional_feedrate_active" => true,
+            Block::Channel if signal.byte >= 58 => true,
             Block::Channel => is_in(control::CHANNEL, signal) || is_in(program::CHANNEL, signal),
-            // Those of spindles have none yet (docs/limits.md).
-            _ if signal.name == "spindle_no_axis" || (82..=85).contains(&signal.byte) => true,
             _ => {
                 let all = [
                     axis::ROWS,
@@ -101,6 +102,7 @@ mod tests {
                     gantry::ROWS,
                     motion::ROWS,
                     jog::ROWS,
+                    spindle::ROWS,
                 ];
                 all.iter().any(|rows| is_in(rows, signal))
             }

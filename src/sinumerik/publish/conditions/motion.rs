@@ -6,11 +6,14 @@ use crate::motion::Motion;
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::limits::Ahead;
 use crate::sinumerik::axis::travel::command_signal;
+use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::jog::state::{By, Movement};
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
+use crate::sinumerik::single_axis::state::OrderedBy;
 use crate::sinumerik::state::Unit;
+use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::Place;
 
@@ -39,7 +42,7 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
 ];
 
 /// A direction in words.
-const fn sign(direction: i8) -> &'static str {
+pub(super) const fn sign(direction: i8) -> &'static str {
     match direction {
         1 => "plus",
         -1 => "minus",
@@ -49,14 +52,103 @@ const fn sign(direction: i8) -> &'static str {
 
 impl Look<'_> {
     fn traverse(self, number: AxisNumber, direction: i8, command: bool, wanted: bool) -> Condition {
-        let travel = self.state.axes[number].travel;
+        let axis = &self.state.axes[number];
         let (word, shown) =
-            if command { ("command", travel.command(self.parameters)) } else { ("request", travel.request()) };
+            if command { ("command", axis.command(self.parameters)) } else { ("request", axis.travel.request()) };
         let what = format!("traverse {word} of {}", self.axis_name(number));
         let expected = if wanted { sign(direction).to_owned() } else { format!("not {}", sign(direction)) };
         Fact::new(what, sign(shown), expected, (shown == direction) == wanted).after(|| {
-            if wanted { self.movement(number, direction, command) } else { self.ends(number, direction, command) }
+            match (self.beside(number).filter(|_| command), wanted) {
+                // A compensation or a DRF offset commands it; its own movement does not.
+                (Some(beside), false) => beside.into(),
+                (Some(_) | None, true) => {
+                    let by_drf = self.pulses_of_drf(number, direction).filter(|_| command);
+                    let own = self.movement(number, direction, command);
+                    Condition::Any([Some(own), by_drf, self.started_by_plc(number)].into_iter().flatten().collect())
+                }
+                (None, false) => self.ends(number, direction, command),
+            }
         })
+    }
+
+    /// What commands an axis that has no traverse command of its own (SIG-10): a DRF offset or a compensation.
+    fn beside(self, number: AxisNumber) -> Option<Fact> {
+        let axis = &self.state.axes[number];
+        let name = self.axis_name(number);
+        if axis.travel.command(self.parameters) != 0 {
+            return None;
+        }
+        if axis.overlay.command != 0 {
+            return Some(Fact::new(format!("DRF offset of {name}"), "on its way", "where the pulses want it", false));
+        }
+        let moved = axis.compensation.command != 0;
+        moved.then(|| Fact::new(format!("compensation of {name}"), "moves the axis", "at its value", false))
+    }
+
+    /// Pulses of the handwheel of a DRF offset, if one is selected.
+    fn pulses_of_drf(self, number: AxisNumber, direction: i8) -> Option<Condition> {
+        let handwheels = self.state.axes[number].overlay.handwheels;
+        let what =
+            format!("DRF pulses of handwheel {} for {}", handwheels.trailing_zeros() + 1, self.axis_name(number));
+        (handwheels != 0).then(|| Fact::new(what, "none", sign(direction), false).into())
+    }
+
+    /// What moves an axis that is positioned alone, by the PLC or a synchronised action, in a direction.
+    fn positioned_alone(self, number: AxisNumber, unit: &Unit, direction: i8, command: bool) -> Option<Condition> {
+        let order = self.state.single.axes[number].order?;
+        let goes = self.state.axes[number].travel.request();
+        let by = match order.by {
+            OrderedBy::Plc => "the PLC",
+            OrderedBy::Action => "a synchronised action",
+        };
+        let found = match order.ending {
+            Some(_) => format!("by {by}, is being stopped"),
+            None => format!("by {by}, direction {}", sign(goes)),
+        };
+        let what = format!("positioning of {}", self.axis_name(number));
+        let positioning = Fact::new(what, found, format!("direction {}", sign(direction)), goes == direction).into();
+        let mut all = vec![positioning];
+        if command && self.parameters.command_only_in_motion {
+            all.extend(self.not_held_alone(unit));
+        }
+        Some(Condition::All(all))
+    }
+
+    /// Nothing holds the movement of an axis that is positioned alone.
+    pub(super) fn not_held_alone(self, unit: &Unit) -> Vec<Condition> {
+        let number = unit.leader();
+        let mut all = vec![self.axis(number, axis_from_nck::axis_stop_active, false)];
+        if !self.state.single.axes[number].independence.taken {
+            all.push(self.channel(unit.channel, channel_to_nck::nc_stop_axes_plus_spindles, false));
+        }
+        let is_plc_axis = self.state.owners.of(number).holder == Holder::Plc;
+        if !(is_plc_axis && self.parameters.axes[number].plc_axis.ignores_feed_disable) {
+            all.push(self.channel(unit.channel, channel_to_nck::feed_disable, false));
+        }
+        all.extend(unit.members().map(|axis| self.axis(axis, axis_to_nck::feed_stop, false)));
+        all.extend(unit.members().map(|axis| self.in_control(axis)));
+        let signals = &self.to_nck.axes[number];
+        let factor = self.parameters.axis_override(signals.feed_override(), signals.override_active());
+        all.push(self.override_of(number, factor));
+        all
+    }
+
+    /// What ends the positioning of an axis before its target: delete distance-to-go, and what stops its channel, unless the PLC has taken it
+    /// out of it (28.x).
+    fn ends_positioning(self, number: AxisNumber, unit: &Unit) -> Vec<Condition> {
+        let delete = axis_to_nck::delete_distance_to_go_spindle_reset;
+        let rises = self.rises(Place::Axis(number), delete, self.state.single.axes[number].delete_was);
+        let mut any = vec![Condition::All(vec![self.axis(number, delete, true), rises])];
+        if !self.state.single.axes[number].independence.taken {
+            any.push(self.not_stopped(unit.channel).opposite());
+        }
+        any
+    }
+
+    /// The PLC starts the positioning of an axis that it has taken.
+    fn started_by_plc(self, number: AxisNumber) -> Option<Condition> {
+        let is_plc_axis = self.state.owners.of(number).holder == Holder::Plc;
+        (is_plc_axis && self.state.single.axes[number].order.is_none()).then(|| self.start_of_positioning(number))
     }
 
     /// What ends a request or a command: the opposite of what it needs, and what ends a movement only in its course.
@@ -67,8 +159,13 @@ impl Look<'_> {
             return self.ends(leader, direction, command);
         }
         let mut any = vec![self.movement(number, direction, command).opposite()];
+        if self.state.single.axes[number].order.is_some() {
+            any.extend(self.ends_positioning(number, &unit));
+            return Condition::Any(any);
+        }
         let axis = &self.state.axes[number];
-        let jogs = !axis.approach.is_running() && !self.synchronises(number) && self.state.is_jogging(&unit);
+        let turns = self.spindle_movement(&unit, direction, command).is_some();
+        let jogs = !axis.approach.is_running() && !self.synchronises(number) && !turns && self.state.is_jogging(&unit);
         if jogs {
             any.push(self.only_jog(unit.mode_group).opposite());
         }
@@ -98,6 +195,12 @@ impl Look<'_> {
     /// that nothing holds the movement (O-27).
     fn movement(self, number: AxisNumber, direction: i8, command: bool) -> Condition {
         let unit = self.unit(number);
+        if let Some(turning) = self.spindle_movement(&unit, direction, command) {
+            return turning;
+        }
+        if let Some(positioning) = self.positioned_alone(number, &unit, direction, command) {
+            return positioning;
+        }
         let axis = &self.state.axes[number];
         let mut all = Vec::new();
         if command && self.parameters.command_only_in_motion {
@@ -263,7 +366,7 @@ impl Look<'_> {
 
     /// Neither feed stop nor an override of 0 holds the movement of a unit.
     pub(super) fn not_held(self, unit: &Unit) -> Condition {
-        let mut all = vec![self.channel(unit.channel, channel_to_nck::feed_disable, false)];
+        let mut all = vec![self.not_disabled(unit.channel, channel_to_nck::feed_disable, UserReaction::Feed)];
         all.extend(unit.members().map(|axis| self.axis(axis, axis_to_nck::feed_stop, false)));
         all.push(self.override_acts(unit.leader()));
         Condition::All(all)
@@ -271,7 +374,11 @@ impl Look<'_> {
 
     /// An override of 0 holds only while it is active.
     fn override_acts(self, axis: AxisNumber) -> Condition {
-        let factor = self.state.axes[axis].feed_factor;
+        self.override_of(axis, self.state.axes[axis].feed_factor)
+    }
+
+    /// An override that is not 0.
+    pub(super) fn override_of(self, axis: AxisNumber, factor: f64) -> Condition {
         let what = format!("effective override of {}", self.axis_name(axis));
         let percent = format!("{} %", (factor * 1e6).round() / 1e4);
         Fact::new(what, percent, "above 0 %", factor > 0.0).into()
@@ -293,7 +400,10 @@ impl Look<'_> {
             fact(format!("axis disable of {} has ended", self.axis_name(leader)), !disabled).after(|| {
                 let rest = unit.members().map(|axis| self.setpoint_rests(axis));
                 let off = self.axis(leader, axis_to_nck::axis_spindle_disable, false);
-                Condition::All(std::iter::once(off).chain(rest).collect())
+                let in_test = self.state.programs[unit.channel].test.axes.contains(leader);
+                let what = format!("{} is in program test, or in a search with program test", self.axis_name(leader));
+                let no_test = Fact::new(what, yes(in_test), "no", !in_test).into();
+                Condition::All([off, no_test].into_iter().chain(rest).collect())
             }),
             self.axis(leader, axis_from_nck::ramp_function_generator_disable_active, false),
         ])

@@ -8,9 +8,10 @@ use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
 
-/// DB21.DBX32.5, 33.5, 35.0 to 35.7.
+/// DB21.DBX32.5, 33.2, 33.5, 35.0 to 35.7.
 pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
     Row::new(channel_from_nck::m0_m1_active, |look, channel| {
         let is_stopped = look.state.programs[channel].programmed_stop;
@@ -41,9 +42,14 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         let searches = look.state.programs[channel].search().is_some_and(Search::is_by_program_test);
         fact(format!("a block search with program test of {} runs", look.channel_name(channel)), searches).into()
     }),
-    Row::new(channel_from_nck::program_test_active, |look, channel| {
-        let rests = look.program(channel, ProgramState::Aborted);
-        Condition::All(vec![look.channel(channel, channel_to_nck::activate_program_test, true), rests])
+    Row::with(
+        channel_from_nck::program_test_active,
+        |look, channel| look.program_test(channel, true),
+        |look, channel| look.program_test(channel, false),
+    ),
+    Row::new(channel_from_nck::revolutional_feedrate_active, |look, channel| {
+        let active = look.state.programs[channel].modal.index(15) == 3;
+        fact(format!("G95 is active in {}: feed per revolution", look.channel_name(channel)), active).into()
     }),
     Row::new(channel_search_from_nck::associated_m0_m1_active, |look, channel| {
         let is_stopped = look.state.programs[channel].associated_stop;
@@ -109,7 +115,7 @@ impl Look<'_> {
         };
         Condition::All(vec![
             Condition::Any(modes.map(|mode| self.mode_group(group, mode, true)).into()),
-            asks(channel_to_nck::nc_start_disable, false),
+            self.not_disabled(channel, channel_to_nck::nc_start_disable, UserReaction::NcStart),
             asks(channel_to_nck::nc_stop, false),
             asks(channel_to_nck::nc_stop_at_block_limit, false),
             asks(channel_to_nck::nc_stop_axes_plus_spindles, false),
@@ -138,6 +144,21 @@ impl Look<'_> {
         let found = if is_set { "yes" } else { "no" };
         let wanted = if question.wanted { "yes" } else { "no" };
         Some(Fact::new(what, found, wanted, is_set == question.wanted).into())
+    }
+
+    /// A program test is selected and deselected while no program runs and the axes of the channel rest.
+    fn program_test(self, channel: ChannelNumber, wanted: bool) -> Condition {
+        let active = self.state.programs[channel].test.is_active;
+        let what = format!("program test of {}", self.channel_name(channel));
+        let word = |on: bool| if on { "selected" } else { "not selected" };
+        Fact::new(what, word(active), word(wanted), active == wanted).after(|| {
+            let rests = self.parameters.channels[channel].axes.iter().map(|axis| self.setpoint_rests(axis));
+            let first = [
+                self.channel(channel, channel_to_nck::activate_program_test, wanted),
+                self.program(channel, ProgramState::Aborted),
+            ];
+            Condition::All(first.into_iter().chain(rests).collect())
+        })
     }
 
     /// A block of a program moves the axis in a direction.

@@ -8,6 +8,7 @@ use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::referencing::state::Phase;
 use crate::sinumerik::state::Unit;
+use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::Place;
 
@@ -175,7 +176,7 @@ impl Look<'_> {
         Condition::All(vec![
             self.approach_requested(unit),
             self.can_move(unit),
-            self.channel(unit.channel, channel_to_nck::feed_disable, false),
+            self.not_disabled(unit.channel, channel_to_nck::feed_disable, UserReaction::Feed),
         ])
     }
 

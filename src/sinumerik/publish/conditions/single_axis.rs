@@ -31,11 +31,7 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
     Row::new(axis_from_nck::positioning_active, |look, axis| {
         let order = look.state.single.axes[axis].order;
         let active = order.is_some_and(|order| order.by == OrderedBy::Plc);
-        let was = look.state.single.axes[axis].start_was;
-        fact(format!("the PLC positions {}", look.axis_name(axis)), active).after(|| {
-            let start = look.axis(axis, axis_to_nck::start_positioning_axis, true);
-            Condition::All(vec![start, look.rises(Place::Axis(axis), axis_to_nck::start_positioning_axis, was)])
-        })
+        fact(format!("the PLC positions {}", look.axis_name(axis)), active).after(|| look.start_of_positioning(axis))
     }),
     Row::new(axis_from_nck::position_reached, |look, axis| look.ended(axis, "reached", Outcome::Reached)),
     Row::new(axis_from_nck::positioning_error, |look, axis| {
@@ -51,6 +47,13 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
 ];
 
 impl Look<'_> {
+    /// The PLC starts a positioning: its start rises.
+    pub(super) fn start_of_positioning(self, axis: AxisNumber) -> Condition {
+        let was = self.state.single.axes[axis].start_was;
+        let start = self.axis(axis, axis_to_nck::start_positioning_axis, true);
+        Condition::All(vec![start, self.rises(Place::Axis(axis), axis_to_nck::start_positioning_axis, was)])
+    }
+
     fn ended(self, axis: AxisNumber, wanted: &str, outcome: Outcome) -> Condition {
         let found = match self.state.single.axes[axis].outcome {
             Outcome::None => "none",
