@@ -187,7 +187,6 @@ fn functions_that_are_not_modelled_are_refused() {
         "G96 S100",
         "FGROUP(X,Y)",
         "FB=100",
-        "FD=5",
         "MCALL L10",
         "TRAORI",
         "R1=CROT(Z,45)",

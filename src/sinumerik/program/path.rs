@@ -9,7 +9,7 @@ use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, channel_number};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
-use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::positioning::{Handwheel, Positioning};
 use crate::sinumerik::program::state::{Change, Led, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -52,6 +52,7 @@ impl State {
             Some((rule, input)) => Held::By(rule, input),
             None => self.holder(run, stage),
         };
+        run.handwheel_factor = self.handwheel_factor(run, held, stage);
         let ended = self.step_path(run, held, stage);
         self.step_positionings(run, held, stage);
         ended
@@ -108,9 +109,21 @@ impl State {
         }
         let of = &stage.parameters.path_overrides;
         Overrides {
-            feed: of.feed(signals.feed_override(), signals.feed_override_active()) * self.revolutions(run, stage),
+            feed: of.feed(signals.feed_override(), signals.feed_override_active())
+                * self.revolutions(run, stage)
+                * run.handwheel_factor,
             rapid: of.rapid(signals.rapid_traverse_override(), signals.rapid_traverse_override_active()),
         }
+    }
+
+    /// FD: what the handwheel of the first geometry axis makes of the feed.
+    fn handwheel_factor(&mut self, run: &Run, held: Held, stage: &Stage<'_>) -> f64 {
+        let block = run.queue.front().filter(|block| block.by_handwheel && run.on_path > 0 && run.returning.is_none());
+        let feed = block.and_then(|block| block.way).map(|way| way.feed);
+        let axis = stage.own.axes.geometry[0].map(|place| stage.own.axes.path[place]);
+        let (Some(Feed::Programmed(feed)), Some(axis)) = (feed, axis) else { return 1.0 };
+        let added = self.override_by_handwheel(axis, false, held != Held::No, (stage.parameters, stage.to_nck));
+        added.map_or(1.0, |added| ((feed + added) / feed).max(0.0))
     }
 
     fn step_path(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) -> usize {
@@ -258,7 +271,7 @@ impl State {
 
     fn step_positionings(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) {
         let mut index = 0;
-        while let Some(&Positioning { axis, target, velocity, is_rapid, .. }) = run.positionings.get(index) {
+        while let Some(&Positioning { axis, target, velocity, is_rapid, handwheel, .. }) = run.positionings.get(index) {
             let signals = &stage.to_nck.axes[axis];
             let state = &self.axes[axis];
             let unit = self.unit_of(axis);
@@ -300,7 +313,18 @@ impl State {
             } else {
                 Held::No
             };
-            let velocity = if held == Held::No { velocity * factor } else { 0.0 };
+            let (mut added, mut target) = (0.0, target);
+            if handwheel != Handwheel::None {
+                let by = (stage.parameters, stage.to_nck);
+                let turned = self.override_by_handwheel(axis, true, held != Held::No, by);
+                if let (Some(turned), Some(state)) = (turned, self.axes[axis].by_handwheel) {
+                    match handwheel {
+                        Handwheel::Way => target = state.place(target),
+                        Handwheel::Velocity | Handwheel::None => added = turned,
+                    }
+                }
+            }
+            let velocity = if held == Held::No { (velocity * factor + added).max(0.0) } else { 0.0 };
             let velocity = velocity.min(stage.parameters.axes[axis].maximum_velocity);
             self.led[axis] = Some(Led::Target { target, velocity });
             let sign = i8::try_from((target - self.axes[axis].setpoint.position).increments().signum()).unwrap_or(0);
