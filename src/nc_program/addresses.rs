@@ -90,8 +90,11 @@ impl Composer<'_> {
             Address::PathHandwheelFeed => {
                 self.plain("FD", word)?;
                 let value = self.number(&word.value, word.at)?;
-                if value <= 0.0 {
-                    return Err(Fault::new(14300, word.at, "a path needs a feed above 0"));
+                if value < 0.0 {
+                    return Err(Fault::new(14800, word.at, format!("FD is {value}")));
+                }
+                if value == 0.0 {
+                    return Err(Fault::refused(word.at, "FD=0 (contour handwheel)"));
                 }
                 self.handwheels.push((None, word.at));
                 self.done.actions.push(Action::PathHandwheelFeed(value));

@@ -203,6 +203,7 @@ impl Axis {
             && (&self.jogging, self.speed_controlled) == (&other.jogging, other.speed_controlled)
             && self.signals == other.signals
             && self.causes == other.causes
+            && self.by_handwheel == other.by_handwheel
             && self.test_travel.has_decisions_of(&other.test_travel)
             && self.approach == other.approach
     }

@@ -475,6 +475,7 @@ impl State {
         }
         for positioning in positions {
             run.positionings.retain(|other| other.axis != positioning.axis);
+            self.begin_way_by_handwheel(positioning.axis);
             run.positionings.push(positioning);
         }
         run.phase = Phase::Moving;
