@@ -51,8 +51,12 @@ impl State {
             .iter()
             .find_map(|axis| self.axes[axis].by_handwheel.filter(|one| one.is_active && !one.is_axial));
         rows.bit(channel_from_nck::handwheel_override_active, of_path.is_some(), || {
-            let ended = self.owners.of_channel(channel).iter().map(|axis| self.single.axes[axis].handwheel_cause).max();
-            Why::Event(of_path.map_or(ended.unwrap_or(EventId::NONE), |one| one.cause))
+            let without = |axis| {
+                let missing = self.axes[axis].by_handwheel.filter(|one| !one.is_axial).map(|one| one.cause);
+                missing.unwrap_or(self.single.axes[axis].handwheel_cause)
+            };
+            let ended = self.owners.of_channel(channel).iter().map(without).max();
+            Why::Event(of_path.map(|one| one.cause).or(ended).unwrap_or(EventId::NONE))
         });
         let per_revolution = program.modal.index(15) == 3;
         rows.bit(channel_from_nck::revolutional_feedrate_active, per_revolution, || Why::Event(program.modal_cause));
