@@ -76,6 +76,30 @@ impl Composer<'_> {
                 let axis = Some(axis);
                 self.auxiliary(AuxiliaryFunction { axis, ..output(AuxiliaryKind::F, None, value) }, word.at)
             }
+            Address::HandwheelFeed => {
+                let axis = self.bracket(word)?;
+                let value = self.axis_value("FDA", axis, word)?;
+                if value < 0.0 {
+                    let name = self.scope.axes().name(axis).to_owned();
+                    return Err(Fault::new(14810, word.at, "a feedrate is not negative").about(name));
+                }
+                self.handwheels.push((Some(axis), word.at));
+                self.done.actions.push(Action::HandwheelFeed(axis, value));
+                Ok(())
+            }
+            Address::PathHandwheelFeed => {
+                self.plain("FD", word)?;
+                let value = self.number(&word.value, word.at)?;
+                if value < 0.0 {
+                    return Err(Fault::new(14800, word.at, format!("FD is {value}")));
+                }
+                if value == 0.0 {
+                    return Err(Fault::refused(word.at, "FD=0 (contour handwheel)"));
+                }
+                self.handwheels.push((None, word.at));
+                self.done.actions.push(Action::PathHandwheelFeed(value));
+                Ok(())
+            }
             Address::Acceleration => {
                 let axis = self.bracket(word)?;
                 let value = self.axis_value("ACC", axis, word)?;

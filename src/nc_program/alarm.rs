@@ -201,6 +201,7 @@ const ALARMS: &[(u32, Class, Third, &str)] = &[
     (14082, CB, TXT, "label of a part of the program does not exist"),
     (14091, IP, TXT, "function not allowed here"),
     (14092, CB, TXT, "wrong type of axis"),
+    (14300, CB, NO, "handwheel override not allowed here"),
     (14500, CB, NO, "DEF or PROC after the first block"),
     (14510, CB, NO, "call with parameters of a program without PROC"),
     (14520, CB, NO, "PROC is not the first block"),

@@ -1,9 +1,10 @@
 //! The words of a block become what it does: G functions first, then addresses and commands, then what fits together.
 
 use super::alarm::{Fault, Span};
-use super::composer::{Before, Composed, Composer};
+use super::composer::{Before, Composed, Composer, UNKNOWN};
 use super::evaluate::Scope;
 use super::functions::{GFunction, g, name};
+use super::names::AxisIndex;
 use super::prepared::{Action, AuxiliaryKind, AxisWord};
 use super::syntax::{Address, Word};
 
@@ -143,6 +144,7 @@ impl Composer<'_> {
             return Ok(());
         }
         self.circle()?;
+        self.handwheel_overrides()?;
         self.path_feed(at)
     }
 
@@ -192,6 +194,32 @@ impl Composer<'_> {
         Ok(())
     }
 
+    /// FDA belongs to POS or POSA of its axis, without FA; FD to a path in G94 without F.
+    fn handwheel_overrides(&self) -> Result<(), Fault> {
+        for (axis, at) in &self.handwheels {
+            let fits = match axis {
+                Some(axis) => {
+                    let is = |of: &AxisIndex| of == axis || *of == UNKNOWN || *axis == UNKNOWN;
+                    let mut actions = self.done.actions.iter();
+                    let positions =
+                        actions.any(|one| matches!(one, Action::Position { target, .. } if is(&target.axis)));
+                    let mut actions = self.done.actions.iter();
+                    positions && !actions.any(|one| matches!(one, Action::AxisFeed(of, _) if of == axis))
+                }
+                None => {
+                    let is_path = !self.done.axes.is_empty() || self.circle_at.is_some();
+                    is_path && !self.done.modal.is(g::G0) && self.done.modal.index(15) == 2 && self.new_feed.is_none()
+                }
+            };
+            if !fits {
+                let of_path = "FD belongs to a path in G1, G2 or G3 with G94, without F";
+                let of_axis = "FDA belongs to POS or POSA of its axis, without FA";
+                return Err(Fault::new(14300, *at, if axis.is_some() { of_axis } else { of_path }));
+            }
+        }
+        Ok(())
+    }
+
     /// F, and whether a path has one. A change between G94 and G95 needs a new F.
     fn path_feed(&mut self, at: Span) -> Result<(), Fault> {
         if self.done.modal.index(15) != self.before.modal.index(15) {
@@ -204,7 +232,8 @@ impl Composer<'_> {
             self.done.feed = Some(feed);
         }
         let is_path = !self.done.axes.is_empty() || self.circle_at.is_some();
-        if is_path && !self.done.modal.is(g::G0) && self.done.feed.is_none() && self.before.needs_feed {
+        let has_own = self.handwheels.iter().any(|(axis, _)| axis.is_none());
+        if is_path && !has_own && !self.done.modal.is(g::G0) && self.done.feed.is_none() && self.before.needs_feed {
             return Err(Fault::new(10860, at, "no F since the start, or since a change between G94 and G95"));
         }
         Ok(())

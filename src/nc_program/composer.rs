@@ -59,6 +59,8 @@ pub(super) struct Composer<'a> {
     pub(super) speeds: Vec<(Option<u16>, f64)>,
     /// F in the block.
     pub(super) new_feed: Option<f64>,
+    /// FDA with its axis, FD without one, and where.
+    pub(super) handwheels: Vec<(Option<AxisIndex>, Span)>,
 }
 
 impl<'a> Composer<'a> {
@@ -87,6 +89,7 @@ impl<'a> Composer<'a> {
             circle_at: None,
             speeds: Vec::new(),
             new_feed: None,
+            handwheels: Vec::new(),
         }
     }
 

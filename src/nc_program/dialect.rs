@@ -134,8 +134,6 @@ const REFUSED: &[(&str, &str)] = &[
     ("EXECSTRING", MACROS),
     ("FAD", SPEEDS),
     ("FB", SPEEDS),
-    ("FD", SPEEDS),
-    ("FDA", SPEEDS),
     ("FGREF", SPEEDS),
     ("FGROUP", SPEEDS),
     ("FL", SPEEDS),

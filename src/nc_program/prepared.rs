@@ -201,6 +201,10 @@ pub enum Action {
     },
     /// `FA[X]=`, modal.
     AxisFeed(AxisIndex, f64),
+    /// `FDA[X]=`: a handwheel changes the velocity of the positioning of this block; with 0 it moves the axis to the target.
+    HandwheelFeed(AxisIndex, f64),
+    /// `FD=`: a handwheel changes the path feed of this block.
+    PathHandwheelFeed(f64),
     /// `ACC[X]=`, in percent.
     Acceleration(AxisIndex, f64),
     /// `OVR=`, in percent.

@@ -237,6 +237,10 @@ pub(super) enum Address {
     F,
     /// `FA[X]=`
     AxisFeed,
+    /// `FDA[X]=`
+    HandwheelFeed,
+    /// `FD=`
+    PathHandwheelFeed,
     S,
     T,
     D,

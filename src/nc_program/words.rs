@@ -21,6 +21,8 @@ pub(super) const ADDRESSES: &[(&str, Address, Option<bool>)] = &[
     ("AR", Address::OpeningAngle, Some(false)),
     ("TURN", Address::Turns, Some(false)),
     ("FA", Address::AxisFeed, Some(true)),
+    ("FD", Address::PathHandwheelFeed, Some(false)),
+    ("FDA", Address::HandwheelFeed, Some(true)),
     ("POS", Address::Position, Some(true)),
     ("POSA", Address::PositionAcross, Some(true)),
     ("SPOS", Address::SpindlePosition, None),

@@ -141,6 +141,7 @@ const READ: &[Signal] = &[
     axis_to_nck::start_positioning_axis,
     axis_to_nck::stop_spindle_oscillation,
     axis_to_nck::stop_spindle_rotation,
+    axis_to_nck::positioning_with_handwheel_override,
     axis_to_nck::incremental_position,
     axis_to_nck::shortest_distance,
     axis_to_nck::position_in_inches,

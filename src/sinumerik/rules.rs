@@ -151,6 +151,9 @@ rules! {
     DrfMoves "MIS-02" "DRF: a handwheel moves the axis beside its program";
     DrfRests "MIS-02" "DRF: the offset does not change";
     DrfWhileReferencing "20053" "DRF: a handwheel is turned while the axis is referenced; its pulses are lost";
+    HandwheelOverrides "MIS-02" "handwheel override: the handwheel of the axis changes the velocity, or moves the axis";
+    HandwheelMissing "20080" "handwheel override: the axis has no handwheel";
+    HandwheelOverrideEnds "MIS-02" "handwheel override: its block or its order has ended";
     // Axis exchange.
     ExchangeRequested "DBB8" "the PLC asks for an exchange of the axis";
     ExchangeRefused "DBB8" "the exchange of the axis is refused";

@@ -187,7 +187,7 @@ fn functions_that_are_not_modelled_are_refused() {
         "G96 S100",
         "FGROUP(X,Y)",
         "FB=100",
-        "FD=5",
+        "G1 X5 FD=0",
         "MCALL L10",
         "TRAORI",
         "R1=CROT(Z,45)",
@@ -252,6 +252,20 @@ fn positioning_axes_wait_or_not() {
         Action::SpindlePosition { spindle: Some(2), value: 90.0, dimension: Dimension::FromPlus, waits: true };
     assert_eq!(action("SPOS[2]=ACP(90)"), expected);
     assert_eq!(action("WAITS(1,2)"), Action::WaitForSpindle(vec![1, 2]));
+}
+
+#[test]
+fn handwheel_overrides_are_actions_of_their_block() {
+    let target = AxisWord { axis: X, value: 5.0, dimension: Dimension::Absolute };
+    for (text, waits, feed) in [("POS[X]=5 FDA[X]=0", true, 0.0), ("POSA[X]=5 FDA[X]=300", false, 300.0)] {
+        assert_eq!(first(text).actions, [Action::Position { target, waits }, Action::HandwheelFeed(X, feed)], "{text}");
+    }
+    let block = first("G1 X5 FD=300");
+    assert_eq!((block.actions, block.feed), (vec![Action::PathHandwheelFeed(300.0)], None));
+    assert_eq!(alarm("POS[X]=5 FDA[X]=-1\nM30").number, 14810);
+    assert_eq!(alarm("G1 X5 FD=-1\nM30").number, 14800);
+    // FD is no F for the block behind it.
+    assert_eq!(alarm("G1 X5 FD=300\nX6\nM30").number, 10860);
 }
 
 #[test]

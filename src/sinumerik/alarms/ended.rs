@@ -87,6 +87,10 @@ impl State {
                 let value = Input::Length(Quantity::SetpointCompensation, number, value);
                 self.log.note_one(place, Rule::SagFollows, value, cause)
             }
+            // Either there is a handwheel now, or the override has ended.
+            alarms::programs::NO_HANDWHEEL => {
+                self.axes[number].by_handwheel.map_or(self.single.axes[number].handwheel_cause, |now| now.cause)
+            }
             _ => EventId::NONE,
         }
     }

@@ -64,6 +64,7 @@ alarms! {
     14091 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 function not allowed here %3";
     14092 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 wrong type of axis %3";
     14095 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 radius of the circle is too small";
+    14300 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 handwheel override not allowed here";
     14500 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 DEF or PROC after the first block";
     14510 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 call with parameters of a program without PROC";
     14520 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 PROC is not the first block";
@@ -114,6 +115,7 @@ alarms! {
     17090 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 value is above the upper limit %3";
     17095 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 value is not valid";
     17180 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 tool offset number is wrong";
+    20080 [DISPLAY] ByItself "channel %1 axis %2 no handwheel for the override";
     20140 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 synchronised action: the command axis %2 cannot move, alarm %3";
     20141 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 synchronised action %3: axis %4 is moved otherwise";
     20143 [DISPLAY] CancelKey "channel %1 synchronised action %3: command axis %4 is under control of the PLC";
@@ -188,6 +190,8 @@ pub(in crate::sinumerik) const WRONG_PARAMETER: AlarmNumber = AlarmNumber(14020)
 pub(in crate::sinumerik) const START_IN_SERUPRO: AlarmNumber = AlarmNumber(16942);
 /// START of a channel whose mode group is in MDA.
 pub(in crate::sinumerik) const START_IN_MDA: AlarmNumber = AlarmNumber(16952);
+/// FD or FDA, and no handwheel is assigned to the axis.
+pub(in crate::sinumerik) const NO_HANDWHEEL: AlarmNumber = AlarmNumber(20080);
 /// A command axis of a synchronised action that cannot move.
 pub(in crate::sinumerik) const COMMAND_AXIS: AlarmNumber = AlarmNumber(20140);
 /// A command axis that a PLC program has.

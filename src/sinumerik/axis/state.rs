@@ -12,7 +12,7 @@ use crate::sinumerik::compensation::state::Compensation;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
-use crate::sinumerik::overlay::state::Overlay;
+use crate::sinumerik::overlay::state::{HandwheelOverride, Overlay};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::ParameterSet;
@@ -92,6 +92,8 @@ pub(in crate::sinumerik) struct Axis {
     pub velocity: f64,
     /// The DRF offset.
     pub overlay: Overlay,
+    /// FD, FDA.
+    pub by_handwheel: Option<HandwheelOverride>,
     /// The function generator.
     pub test_travel: TestTravel,
     /// The compensations.
@@ -158,6 +160,7 @@ impl Default for Axis {
             zero_mark: None,
             velocity: 0.0,
             overlay: Overlay::default(),
+            by_handwheel: None,
             test_travel: TestTravel::default(),
             compensation: Compensation::default(),
             half_count: Position::ZERO,
@@ -200,6 +203,7 @@ impl Axis {
             && (&self.jogging, self.speed_controlled) == (&other.jogging, other.speed_controlled)
             && self.signals == other.signals
             && self.causes == other.causes
+            && self.by_handwheel == other.by_handwheel
             && self.test_travel.has_decisions_of(&other.test_travel)
             && self.approach == other.approach
     }

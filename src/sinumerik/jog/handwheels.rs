@@ -166,7 +166,12 @@ impl State {
     }
 
     /// The signals that assign these handwheels, and the one that inverts their direction.
-    fn selection_inputs(&self, number: AxisNumber, handwheels: u8, signals: &AxisToNck) -> [Input; 3] {
+    pub(in crate::sinumerik) fn selection_inputs(
+        &self,
+        number: AxisNumber,
+        handwheels: u8,
+        signals: &AxisToNck,
+    ) -> [Input; 3] {
         let handwheel = handwheels.trailing_zeros().min(2) as usize;
         let (activated, selects) = ACTIVATED_AND_SELECTED[handwheel];
         let by_plc = axis_signal(number, activated, signals.activated_handwheels() >> handwheel & 1 == 1);
@@ -255,7 +260,8 @@ pub(in crate::sinumerik) fn velocity(parameters: &AxisParameters, key_velocity: 
 }
 
 /// An increment limited to `maximum`, unless that is 0.
-fn limited(increment: Position, maximum: Position) -> Position {
+/// An increment, at most MD32080; 0 does not limit it.
+pub(in crate::sinumerik) fn limited(increment: Position, maximum: Position) -> Position {
     if maximum == Position::ZERO || increment.abs() <= maximum {
         increment
     } else if increment < Position::ZERO {

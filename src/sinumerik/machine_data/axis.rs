@@ -68,6 +68,8 @@ Axis {
     32070 CORR_VELO corr_velo: f64 = 50.0; "%", Range::NOT_NEGATIVE, Reset;
     /// largest increment of the handwheel; 0 unlimited
     32080 HANDWH_MAX_INCR_SIZE handwh_max_incr_size: f64 = 0.0; "mm, deg", Range::NOT_NEGATIVE, Reset;
+    /// largest velocity that a handwheel adds to a path or a positioning (FD, FDA); 0 unlimited
+    32082 HANDWH_MAX_INCR_VELO_SIZE handwh_max_incr_velo_size: f64 = 500.0; "mm/min", Range::NOT_NEGATIVE, Reset;
     /// conditions that abort (1) or interrupt (0) handwheel travel: bit 0 feed override, 1 spindle override, 2 feed stop, 3 clamping, 4
     /// controller enable, 5 pulse enable
     32084 HANDWH_STOP_COND handwh_stop_cond: u32 = 0xFF; "", Range::ANY, Reset;

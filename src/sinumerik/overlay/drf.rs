@@ -10,7 +10,7 @@ use crate::motion::Limits;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::inputs::channel_signal;
-use crate::sinumerik::jog::handwheels::active_handwheel;
+use crate::sinumerik::jog::handwheels::{active_handwheel, limited};
 use crate::sinumerik::jog::state::Function;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::operation::state::Mode;
@@ -65,16 +65,13 @@ impl State {
         let own = &parameters.axes[number];
         let requested = signals.requested_machine_functions();
         let increment = Function::requested(requested).way(own);
-        let maximum = own.handwheel_maximum;
-        let increment = if maximum == Position::ZERO {
-            increment
-        } else {
-            Position::new(increment.increments().clamp(-maximum.increments(), maximum.increments()))
-        };
+        let increment = limited(increment, own.handwheel_maximum);
+        // A handwheel that overrides a velocity or a positioning adds nothing to the offset (K-31).
+        let overrides = self.axes[number].by_handwheel.is_some();
         let (mut detents, mut turned) = (0.0, EventId::NONE);
         for (bit, handwheel) in self.handwheels.iter().enumerate() {
             let per_detent = parameters.handwheel_pulses[bit];
-            if active >> bit & 1 == 1 && handwheel.moved != 0 && per_detent.abs() > 0.0 {
+            if !overrides && active >> bit & 1 == 1 && handwheel.moved != 0 && per_detent.abs() > 0.0 {
                 detents += (handwheel.moved as f64 / per_detent).clamp(-1e12, 1e12);
                 turned = handwheel.cause;
             }

@@ -9,5 +9,6 @@
 //!
 //! `state.rs` contains the offset of an axis, `drf.rs` is the stage.
 
+pub(super) mod by_handwheel;
 pub(super) mod drf;
 pub(super) mod state;

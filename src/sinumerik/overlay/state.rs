@@ -6,6 +6,23 @@ use crate::motion::Setpoint;
 use crate::units::Position;
 use crate::variables::EventId;
 
+/// The handwheel override of an axis (FDA), or of the path whose first axis it is (FD).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct HandwheelOverride {
+    /// A handwheel is assigned: 62.1 of a positioning axis, 33.3 of a path.
+    pub is_active: bool,
+    /// Of a positioning axis, not of a path.
+    pub is_axial: bool,
+    /// What the handwheel adds, averaged, in increments per second.
+    pub velocity: f64,
+    /// How far the pulses of this cycle move the axis, in increments.
+    pub turned: f64,
+    /// FDA = 0: where the axis began, and how far the handwheel has moved it.
+    pub way: Option<(Position, f64)>,
+    /// The event behind it.
+    pub cause: EventId,
+}
+
 /// The DRF offset of one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Overlay {

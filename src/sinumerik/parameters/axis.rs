@@ -196,6 +196,8 @@ pub struct AxisParameters {
     pub overlay_factor: f64,
     /// MD32080; 0 means no limit.
     pub handwheel_maximum: Position,
+    /// MD32082, in increments per second.
+    pub handwheel_velocity: f64,
     /// MD32084.
     pub handwheel_stop_conditions: u32,
     /// Position control, and the data of each parameter set.
@@ -280,6 +282,10 @@ pub(super) fn axis(
         increments: increments(data, md),
         overlay_factor: md.handwh_velo_overlay_factor,
         handwheel_maximum: Position::from_user(md.handwh_max_incr_size),
+        handwheel_velocity: match md.handwh_max_incr_velo_size {
+            limit if limit > 0.0 => velocity(limit),
+            _ => f64::INFINITY,
+        },
         handwheel_stop_conditions: md.handwh_stop_cond,
         dynamics: dynamics(md, jerk, &presence.mechanics, &velocity),
         positioning_cycles: cycles(md.positioning_time),

@@ -51,6 +51,8 @@ pub(in crate::sinumerik) struct Executable {
     pub end: Option<End>,
     /// Single block type 1 stops after it.
     pub is_executable: bool,
+    /// FD: a handwheel changes its feed.
+    pub by_handwheel: bool,
     /// The block, to be prepared again if its axes begin elsewhere; `None` for a calculation.
     pub block: Option<Box<ReadBlock>>,
     /// The state behind a calculation, which is a block of its own in single block type 2.
@@ -73,6 +75,7 @@ impl Executable {
             stop: ProgrammedStop::None,
             end: None,
             is_executable: false,
+            by_handwheel: false,
             block: None,
             calculation: None,
         }
@@ -112,6 +115,7 @@ impl Executable {
     /// Whether it only moves the path, so that the path can pass into it without a stop.
     pub(in crate::sinumerik) fn is_plain(&self) -> bool {
         self.way.is_some()
+            && !self.by_handwheel
             && self.outputs[0].is_empty()
             && self.dwell == 0
             && self.dwell_turns.is_none()

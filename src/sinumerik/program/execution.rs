@@ -215,6 +215,7 @@ impl State {
             // The first block has output what it has; those behind it have not begun.
             let outputs = if run.on_path == 1 { busy } else { last.has_outputs() };
             let stops = last.way.is_none_or(|block| block.exact_stop)
+                || last.by_handwheel
                 || last.end.is_some()
                 || last.stop != ProgrammedStop::None
                 || !last.positions.is_empty()
@@ -474,6 +475,7 @@ impl State {
         }
         for positioning in positions {
             run.positionings.retain(|other| other.axis != positioning.axis);
+            self.begin_way_by_handwheel(positioning.axis);
             run.positionings.push(positioning);
         }
         run.phase = Phase::Moving;

@@ -6,7 +6,7 @@ use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::executable::Executable;
-use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::positioning::{Handwheel, Positioning};
 use crate::sinumerik::program::preparation::{Preparing, block_parameter};
 use crate::sinumerik::program::state::{BlockAlarm, Run, block_name};
 use crate::units::{AxisNumber, Position};
@@ -28,7 +28,18 @@ impl Preparing<'_> {
             let (axis, place) = self.path_axis(block, target.axis)?;
             let programmed = run.axis_feeds.iter().find(|(of, _)| *of == axis).map(|(_, feed)| *feed);
             let rotary = self.parameters.axes[axis].rotary;
-            let velocity = match programmed {
+            let by_handwheel = block.actions.iter().find_map(|action| match action {
+                Action::HandwheelFeed(of, feed) => {
+                    self.path_axis(block, *of).ok().filter(|(of, _)| *of == axis).map(|_| *feed)
+                }
+                _ => None,
+            });
+            let handwheel = match by_handwheel {
+                None => Handwheel::None,
+                Some(feed) if feed > 0.0 => Handwheel::Velocity,
+                Some(_) => Handwheel::Way,
+            };
+            let velocity = match by_handwheel.filter(|feed| *feed > 0.0).or(programmed) {
                 Some(feed) => feed * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 },
                 None => self.parameters.axes[axis].positioning_velocity,
             };
@@ -45,7 +56,7 @@ impl Preparing<'_> {
             let target = Position::new(end[place].round() as i64);
             let velocity = velocity.min(self.parameters.axes[axis].maximum_velocity);
             run.programmed_on_path.set(axis, false);
-            done.positions.push(Positioning { axis, target, velocity, waits: *waits, is_rapid: false });
+            done.positions.push(Positioning { axis, target, velocity, waits: *waits, is_rapid: false, handwheel });
         }
         Ok(())
     }
@@ -58,7 +69,14 @@ impl Preparing<'_> {
                 #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
                 let target = Position::new(end[place].round() as i64);
                 let velocity = self.parameters.axes[axis].maximum_velocity;
-                done.positions.push(Positioning { axis, target, velocity, waits: true, is_rapid: true });
+                done.positions.push(Positioning {
+                    axis,
+                    target,
+                    velocity,
+                    waits: true,
+                    is_rapid: true,
+                    handwheel: Handwheel::None,
+                });
             }
         }
     }

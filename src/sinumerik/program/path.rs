@@ -9,7 +9,7 @@ use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, channel_number};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
-use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::positioning::{Handwheel, Positioning};
 use crate::sinumerik::program::state::{Change, Led, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -52,6 +52,7 @@ impl State {
             Some((rule, input)) => Held::By(rule, input),
             None => self.holder(run, stage),
         };
+        run.handwheel_share = self.handwheel_share(run, held, stage);
         let ended = self.step_path(run, held, stage);
         self.step_positionings(run, held, stage);
         ended
@@ -107,10 +108,23 @@ impl State {
             return Overrides { feed: 1.0, rapid: 1.0 };
         }
         let of = &stage.parameters.path_overrides;
+        let feed = of.feed(signals.feed_override(), signals.feed_override_active());
+        // The override does not act on what a handwheel adds, except that 0 % holds everything.
+        let by_handwheel = if feed > 0.0 { run.handwheel_share } else { 0.0 };
         Overrides {
-            feed: of.feed(signals.feed_override(), signals.feed_override_active()) * self.revolutions(run, stage),
+            feed: (feed * self.revolutions(run, stage) + by_handwheel).max(0.0),
             rapid: of.rapid(signals.rapid_traverse_override(), signals.rapid_traverse_override_active()),
         }
+    }
+
+    /// FD: what the handwheel of the first geometry axis adds, as a share of the feed.
+    fn handwheel_share(&mut self, run: &Run, held: Held, stage: &Stage<'_>) -> f64 {
+        let block = run.queue.front().filter(|block| block.by_handwheel && run.on_path > 0 && run.returning.is_none());
+        let feed = block.and_then(|block| block.way).map(|way| run.effective_feed(way.feed, false, stage));
+        let axis = stage.own.axes.geometry[0].map(|place| stage.own.axes.path[place]);
+        let (Some(Feed::Programmed(feed)), Some(axis)) = (feed, axis) else { return 0.0 };
+        let added = self.override_by_handwheel(axis, false, held != Held::No, (stage.parameters, stage.to_nck));
+        added.map_or(0.0, |added| added / feed)
     }
 
     fn step_path(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) -> usize {
@@ -258,7 +272,7 @@ impl State {
 
     fn step_positionings(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) {
         let mut index = 0;
-        while let Some(&Positioning { axis, target, velocity, is_rapid, .. }) = run.positionings.get(index) {
+        while let Some(&Positioning { axis, target, velocity, is_rapid, handwheel, .. }) = run.positionings.get(index) {
             let signals = &stage.to_nck.axes[axis];
             let state = &self.axes[axis];
             let unit = self.unit_of(axis);
@@ -300,15 +314,29 @@ impl State {
             } else {
                 Held::No
             };
-            let velocity = if held == Held::No { velocity * factor } else { 0.0 };
+            let by = (stage.parameters, stage.to_nck);
+            let (place, added) = match handwheel {
+                Handwheel::None => (target, 0.0),
+                Handwheel::Velocity => {
+                    (target, self.override_by_handwheel(axis, true, held != Held::No, by).unwrap_or(0.0))
+                }
+                Handwheel::Way => {
+                    self.override_by_handwheel(axis, true, held != Held::No, by);
+                    (self.place_by_handwheel(axis, target), 0.0)
+                }
+            };
+            let velocity = if held == Held::No { (velocity * factor + added).max(0.0) } else { 0.0 };
             let velocity = velocity.min(stage.parameters.axes[axis].maximum_velocity);
-            self.led[axis] = Some(Led::Target { target, velocity });
-            let sign = i8::try_from((target - self.axes[axis].setpoint.position).increments().signum()).unwrap_or(0);
+            self.led[axis] = Some(Led::Target { target: place, velocity });
+            let here = self.axes[axis].setpoint.position;
+            let awaits_pulses = place != target && place == here;
+            let sign = if awaits_pulses { target - here } else { place - here };
+            let sign = i8::try_from(sign.increments().signum()).unwrap_or(0);
             let rests = self.axes[axis].setpoint.is_at_rest();
             let travel = match held {
                 Held::Stopped if rests => Travel::None,
-                Held::No => Travel::moving(sign),
-                Held::Stopped | Held::By(..) => Travel::waiting(sign),
+                Held::No if !awaits_pulses => Travel::moving(sign),
+                Held::Stopped | Held::By(..) | Held::No => Travel::waiting(sign),
             };
             self.show_travel(axis, travel, held, run, stage);
         }

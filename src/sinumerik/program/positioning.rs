@@ -16,4 +16,17 @@ pub(in crate::sinumerik) struct Positioning {
     pub waits: bool,
     /// G0 with MD20730 = 0: the rapid traverse override of the channel acts, not that of the axis.
     pub is_rapid: bool,
+    /// FDA.
+    pub handwheel: Handwheel,
+}
+
+/// What a handwheel does in the movement of a positioning axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Handwheel {
+    /// Nothing.
+    None,
+    /// FDA above 0: it changes the velocity.
+    Velocity,
+    /// FDA = 0: its pulses move the axis.
+    Way,
 }

@@ -248,7 +248,11 @@ impl Preparing<'_> {
     fn feed(&self, block: &Block, path_override: f64) -> Feed {
         // The feed of one revolution in a second.
         let per_minute = if geometry::is_per_revolution(block) { 60.0 } else { 1.0 };
-        let feed = block.feed.map(|feed| geometry::feed(feed * per_minute, block, self.parameters.is_inch));
+        let own = block.actions.iter().find_map(|action| match action {
+            Action::PathHandwheelFeed(feed) => Some(*feed),
+            _ => None,
+        });
+        let feed = own.or(block.feed).map(|feed| geometry::feed(feed * per_minute, block, self.parameters.is_inch));
         match feed {
             Some(feed) if !geometry::is_rapid(block) => Feed::Programmed(feed * path_override),
             Some(_) | None => Feed::Rapid,
@@ -398,7 +402,8 @@ impl Preparing<'_> {
                     // The limits act on the next block.
                     run.pauses = true;
                 }
-                Action::Position { .. } => {}
+                Action::Position { .. } | Action::HandwheelFeed(..) => {}
+                Action::PathHandwheelFeed(_) => done.by_handwheel = true,
                 Action::WaitForPosition(names) => {
                     for name in names {
                         let (axis, _) = self.path_axis(block, *name)?;

@@ -214,6 +214,7 @@ impl State {
             commanded_arrived: false,
             read_in_disabled: false,
             path_override: 1.0,
+            handwheel_share: 0.0,
             programmed_on_path: AxisSet::NONE,
             waits: None,
             starts: Vec::new(),

@@ -324,6 +324,8 @@ pub(in crate::sinumerik) struct Run {
     pub read_in_disabled: bool,
     /// OVR as a factor.
     pub path_override: f64,
+    /// FD: what the handwheel adds, as a share of the feed.
+    pub handwheel_share: f64,
     /// The axes that the last block which named them has moved on the path: they are no positioning axes.
     pub programmed_on_path: AxisSet,
     /// What it waits for in other channels.

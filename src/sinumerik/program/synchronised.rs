@@ -15,7 +15,7 @@ use crate::sinumerik::program::execution::Sources;
 use crate::sinumerik::program::geometry;
 use crate::sinumerik::program::outputs::entry;
 use crate::sinumerik::program::path::Stage;
-use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::positioning::{Handwheel, Positioning};
 use crate::sinumerik::program::state::{ActiveAction, Run};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::{Order, OrderedBy};
@@ -198,7 +198,14 @@ impl State {
             return;
         }
         run.positionings.retain(|one| one.axis != axis);
-        run.positionings.push(Positioning { axis, target, velocity, waits: false, is_rapid: false });
+        run.positionings.push(Positioning {
+            axis,
+            target,
+            velocity,
+            waits: false,
+            is_rapid: false,
+            handwheel: Handwheel::None,
+        });
         run.commanded.set(axis, true);
     }
 
@@ -236,7 +243,8 @@ impl State {
             self.hand_over(&unit, stage.channel, Rule::TakenByAction, inputs, run.block_cause, stage.parameters);
         }
         let cause = self.log.note(Place::Axis(axis), Rule::OrderStarted, inputs, run.block_cause);
-        let order = Order { target, velocity, by: OrderedBy::Action, cause, begun: false, ending: None };
+        let order =
+            Order { target, velocity, by: OrderedBy::Action, cause, by_handwheel: false, begun: false, ending: None };
         self.begin_order(axis, order);
         self.single.note_watched(axis);
     }

@@ -45,6 +45,19 @@ impl State {
         rows.bit(channel_from_nck::last_action_block_active, search.is_some_and(Search::is_last_action), by_search);
         rows.bit(channel_from_nck::block_search_active, search.is_some_and(Search::is_searching), by_search);
         rows.bit(channel_from_nck::program_test_active, program.test.is_active, || Why::Event(program.test.cause));
+        let of_path = self
+            .owners
+            .of_channel(channel)
+            .iter()
+            .find_map(|axis| self.axes[axis].by_handwheel.filter(|one| one.is_active && !one.is_axial));
+        rows.bit(channel_from_nck::handwheel_override_active, of_path.is_some(), || {
+            let without = |axis| {
+                let missing = self.axes[axis].by_handwheel.filter(|one| !one.is_axial).map(|one| one.cause);
+                missing.unwrap_or(self.single.axes[axis].handwheel_cause)
+            };
+            let ended = self.owners.of_channel(channel).iter().map(without).max();
+            Why::Event(of_path.map(|one| one.cause).or(ended).unwrap_or(EventId::NONE))
+        });
         let per_revolution = program.modal.index(15) == 3;
         rows.bit(channel_from_nck::revolutional_feedrate_active, per_revolution, || Why::Event(program.modal_cause));
         rows.bit(channel_from_nck::m2_m30_active, program.ended, by_program);

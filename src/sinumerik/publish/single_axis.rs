@@ -13,6 +13,12 @@ impl State {
         rows.bit(axis_from_nck::reset_executed, one.independence.reset, control);
         rows.bit(axis_from_nck::plc_controlled_axis, one.independence.taken, control);
         rows.bit(axis_from_nck::axis_stop_active, one.independence.stopped, control);
+        let by_handwheel = self.axes[number].by_handwheel.filter(|one| one.is_axial && one.is_active);
+        let handwheel = || {
+            let cause = self.axes[number].by_handwheel.map_or(one.handwheel_cause, |by_handwheel| by_handwheel.cause);
+            Why::Event(cause)
+        };
+        rows.bit(axis_from_nck::handwheel_override_active, by_handwheel.is_some(), handwheel);
         let positioning = || Why::Event(one.positioning_cause);
         rows.bit(axis_from_nck::positioning_axis, self.single.positioning.contains(number), positioning);
         rows.bytes(axis_from_nck::positioning_axis_f_function.byte, &one.feed.to_be_bytes(), positioning);

@@ -39,6 +39,8 @@ impl State {
             }
             self.single.note_watched(axis);
         }
+        let overridden = std::mem::take(&mut self.single.overridden);
+        self.keep_handwheel_overrides(overridden);
     }
 
     /// Whether an order positions an axis.
@@ -139,8 +141,13 @@ impl State {
         let signals = &to_nck.axes[axis];
         let factor = parameters.axis_override(signals.feed_override(), signals.override_active());
         let held = self.holder_of_single((axis, unit), is_on, factor, parameters, to_nck);
-        let velocity =
-            if held.is_none() { (order.velocity * factor).min(parameters.axes[axis].maximum_velocity) } else { 0.0 };
+        let added = if order.by_handwheel {
+            self.override_by_handwheel(axis, true, held.is_some(), (parameters, to_nck)).unwrap_or(0.0)
+        } else {
+            0.0
+        };
+        let wanted = (order.velocity * factor + added).clamp(0.0, parameters.axes[axis].maximum_velocity);
+        let velocity = if held.is_none() { wanted } else { 0.0 };
         self.led[axis] = Some(Led::Target { target: order.target, velocity });
         let sign = direction(order.target - self.axes[axis].setpoint.position);
         let travel = if held.is_some() { Travel::waiting(sign) } else { Travel::moving(sign) };

@@ -61,7 +61,16 @@ impl State {
                 let goal = Input::Length(Quantity::Target, axis, target);
                 let event =
                     self.log.note(Place::Axis(axis), Rule::OrderStarted, [starts, goal, Input::None], EventId::NONE);
-                let order = Order { target, velocity, by: OrderedBy::Plc, cause: event, begun: false, ending: None };
+                let by_handwheel = signals.positioning_with_handwheel_override();
+                let order = Order {
+                    target,
+                    velocity,
+                    by: OrderedBy::Plc,
+                    cause: event,
+                    by_handwheel,
+                    begun: false,
+                    ending: None,
+                };
                 self.begin_order(axis, order);
             }
             Err(refusal) => {

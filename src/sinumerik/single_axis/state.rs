@@ -24,6 +24,8 @@ pub(in crate::sinumerik) struct Order {
     pub by: OrderedBy,
     /// The event of its start.
     pub cause: EventId,
+    /// A handwheel changes the velocity.
+    pub by_handwheel: bool,
     /// The axis was in position control since its start.
     pub begun: bool,
     /// It brakes, and then the order ends like this.
@@ -103,6 +105,8 @@ pub(in crate::sinumerik) struct SingleAxis {
     pub spindle_stop_was: bool,
     pub delete_was: bool,
     pub independence: Independence,
+    /// The event with which a handwheel override ended.
+    pub handwheel_cause: EventId,
 }
 
 /// All axes.
@@ -113,6 +117,8 @@ pub(in crate::sinumerik) struct SingleAxes {
     pub moving: AxisSet,
     /// Those with an order, a refusal that is shown, or under the control of the PLC: the stage looks at them in every cycle.
     pub watched: AxisSet,
+    /// Those with a handwheel override in this cycle.
+    pub overridden: AxisSet,
     /// Those that a program or an order positions: 76.5.
     pub positioning: AxisSet,
 }
