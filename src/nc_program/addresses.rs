@@ -245,13 +245,17 @@ impl Composer<'_> {
         let value = if is_real {
             self.number(&word.value, word.at)?
         } else {
-            self.whole(&word.value, word.at)?.map_or(f64::NAN, f64::from)
+            let value = self.number(&word.value, word.at)?;
+            if value.fract() != 0.0 && !value.is_nan() {
+                return Err(Fault::new(12560, word.at, format!("{value} is no whole number")));
+            }
+            value
         };
         let (least, most) = match kind {
             AuxiliaryKind::M => (0.0, f64::from(i32::MAX)),
             AuxiliaryKind::T => (0.0, 65_535.0),
             AuxiliaryKind::S | AuxiliaryKind::SumOffset => (0.0, f64::INFINITY),
-            AuxiliaryKind::D => (0.0, 32_000.0),
+            AuxiliaryKind::D => (0.0, 255.0),
             AuxiliaryKind::H | AuxiliaryKind::F => (f64::NEG_INFINITY, f64::INFINITY),
         };
         if value < least || value > most {

@@ -2,9 +2,10 @@
 
 use super::expression::{Expression, is_main_run};
 use super::functions::{GFunction, g};
-use super::syntax::{Called, Initial, Statement, Word};
+use super::syntax::{Called, Direction, Initial, Jump, Statement, Word};
 
-/// Whether a block waits until everything before it has been executed: STOPRE, G74, PRESETON, GET, NEWCONF, and variables of the main run.
+/// Whether a block waits until everything before it has been executed: STOPRE, G74, PRESETON, GET, NEWCONF, GOTOS (384.0
+/// counts when the block is reached), and variables of the main run.
 pub(super) fn waits(statement: &Statement) -> bool {
     let main_run = |one: &Expression| matches!(one, Expression::System { name, .. } if is_main_run(name));
     let reads = |expression: &Expression| expression.any(&main_run);
@@ -18,9 +19,15 @@ pub(super) fn waits(statement: &Statement) -> bool {
             Initial::Values(values) => values.iter().flatten().any(reads),
             Initial::All(value, count) => reads(value) || count.as_ref().is_some_and(reads),
         }),
-        Statement::If { condition, .. } | Statement::While(condition) | Statement::Until(condition) => reads(condition),
+        Statement::If { condition, jump } => reads(condition) || jump.as_ref().is_some_and(restarts),
+        Statement::While(condition) | Statement::Until(condition) => reads(condition),
         Statement::For { from, to, .. } => reads(from) || reads(to),
-        Statement::Case { selector, cases, .. } => reads(selector) || cases.iter().any(|(value, _)| reads(value)),
+        Statement::Case { selector, cases, default, .. } => {
+            reads(selector)
+                || cases.iter().any(|(value, jump)| reads(value) || restarts(jump))
+                || default.as_ref().is_some_and(restarts)
+        }
+        Statement::Jump(jump) => restarts(jump),
         Statement::Call(call) => {
             of_call(&call.program)
                 || call.passes.as_ref().is_some_and(reads)
@@ -45,9 +52,12 @@ pub(super) fn waits(statement: &Statement) -> bool {
         | Statement::Loop
         | Statement::EndLoop
         | Statement::EndFor
-        | Statement::Jump(_)
         | Statement::Return { .. } => false,
     }
+}
+
+fn restarts(jump: &Jump) -> bool {
+    jump.direction == Direction::Start
 }
 
 fn stops(function: GFunction) -> bool {

@@ -27,6 +27,7 @@ const READ: &[Signal] = &[
     mode_group_to_nck::mode_jog,
     mode_group_to_nck::mode_change_inhibit,
     mode_group_to_nck::mode_group_reset,
+    mode_group_to_nck::mode_group_stop,
     mode_group_to_nck::mode_group_stop_axes_plus_spindles,
     mode_group_to_nck::single_block_type_b,
     mode_group_to_nck::machine_function_teach_in,

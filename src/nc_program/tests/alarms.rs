@@ -60,6 +60,11 @@ const ALARMS: &[(u32, &str, &str, &str, bool)] = &[
     (12553, "1", "G41", "G41 X5\nM30", true),
     (12553, "1", "$AC_PATHN", "R1=$AC_PATHN\nM30", false),
     (12560, "1", "T70000", "T70000\nM30", true),
+    (12560, "1", "T1.5", "T1.5\nM30", true),
+    (12560, "1", "M1.5", "M1.5\nM30", true),
+    (12560, "1", "M=R1+0.5", "M=R1+0.5\nM30", false),
+    (12560, "1", "M=-1", "M=-1\nM30", true),
+    (12560, "1", "D0.5", "D0.5\nM30", true),
     (12560, "1", "ACC[X]=0", "ACC[X]=0\nM30", true),
     (12630, "1", "", "/ WHILE TRUE\nENDWHILE\nM30", true),
     (12630, "AB", "", "AB: LOOP\nENDLOOP\nM30", true),
@@ -125,7 +130,7 @@ const ALARMS: &[(u32, &str, &str, &str, bool)] = &[
     (17080, "1", "$MC_LIMIT", "$MC_LIMIT=-1\nM30", false),
     (17090, "1", "$MC_LIMIT", "$MC_LIMIT=11\nM30", false),
     (17095, "1", "", "$MC_LIMIT=1.5\nM30", false),
-    (17180, "1", "", "D40000\nM30", true),
+    (17180, "1", "", "D256\nM30", true),
 ];
 
 /// Numbers that need more than one program, or more nesting than a line of the table shows.

@@ -9,7 +9,7 @@
 //! | M134.0, M134.1 | InPos, Error |
 //! | MB135 | State |
 //!
-//! The number of the axis is taken over while Start is 0.
+//! The number of the axis is taken over while Start is 0. A number without an axis ends with Error and State 100.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,9 @@ const POSITION: usize = 126;
 const FEEDRATE: usize = 130;
 const RESULTS: usize = 134;
 const STATE: usize = 135;
+
+/// State: a wrong value, as for a position or a feed that is none.
+const NO_AXIS: u8 = 100;
 
 /// The state: FC 18, and the axis that it positions.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -46,7 +49,12 @@ pub fn position_axis() -> ClosureProgram<PositionAxis> {
                 .and_then(AxisNumber::new)
                 .filter(|axis| io.axes().any(|known| known == *axis));
         }
-        let Some(axis) = state.axis else { return };
+        let Some(axis) = state.axis else {
+            io.flags.set_bit(RESULTS, 0, false);
+            io.flags.set_bit(RESULTS, 1, start);
+            io.flags.set_byte(STATE, if start { NO_AXIS } else { 0 });
+            return;
+        };
         let real = |at: usize| io.flags.real(at);
         let inputs = SpinCtrlInputs {
             start,

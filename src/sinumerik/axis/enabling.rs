@@ -315,6 +315,10 @@ impl State {
         let control = match before.control {
             ControllerState::Off if wanted => ControllerState::SwitchingOn(0),
             ControllerState::Off => ControllerState::Off,
+            // The brake may be open already.
+            ControllerState::SwitchingOn(_) if !wanted && powered && brake == Brake::Open => {
+                ControllerState::Holding(HOLDING_CYCLES)
+            }
             ControllerState::SwitchingOn(_) if !wanted => ControllerState::Off,
             ControllerState::SwitchingOn(cycles) if cycles + 1 >= 3 * STEP && !brake_holds => ControllerState::On,
             // Position control begins when the brake is open.

@@ -12,11 +12,10 @@
 //! (setpoint of the interpolator minus actual value) is v · (MD32910 + MD32810) + (1 − MD32610) · v / Kv with feedforward, and v
 //! / Kv + v · MD32910 without.
 //!
-//! Choices: an axis without a delay needs no memory and no time for it. An axis without power, and an axis whose setpoint is not
+//! Choices: an axis without a delay needs no memory and no time for it. An axis without power or without a measuring system, and an axis whose setpoint is not
 //! output (1.3, 20.1, an encoder fault), restarts its branch. MD32620 = 2 and 4 act with their speed part; MD32650 has no effect.
 
 use crate::motion::velocity_command;
-use crate::sinumerik::axis::controllers::ControllerState;
 use crate::sinumerik::axis::shaping::SetpointBranch;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::nck::Nck;
@@ -41,9 +40,10 @@ impl Nck {
         let branch = self.state.shaping[number].as_deref_mut().and_then(|shaping| shaping.branch.as_mut());
         let Some(active) = axis.measuring_system.filter(|_| axis.enabling.is_powered()).map(usize::from) else {
             axis.reset_branch(branch);
-            // The drive stands still with power until the brake holds.
-            let holds = matches!(axis.enabling.control, ControllerState::Holding(_)) && axis.enabling.pulses_enabled();
-            return holds.then_some(0.0);
+            // With power and its speed controller the drive holds the slide: while the brake opens and closes, and while a parked axis is
+            // switched off.
+            let [_, holds, _] = axis.enabling.controllers();
+            return (holds && axis.enabling.pulses_enabled()).then_some(0.0);
         };
         let set = axis.active_set(parameters);
         let (shown, command) = match &set.misfit {

@@ -112,6 +112,8 @@ pub(in crate::sinumerik) struct Axis {
     pub approach: Approach,
     /// A traversing key started an approach and has not been released since.
     pub key_used: bool,
+    /// Direction of a key that was pressed in REF with MD11300 = 0 before all axes of the unit were in position control.
+    pub key_pending: i8,
     /// Direction of the key that started the approach; 0 for channel-specific referencing.
     pub approach_key: i8,
     /// Whether it is to travel, 64.4 to 64.7.
@@ -170,6 +172,7 @@ impl Default for Axis {
             enabling: Enabling::default(),
             approach: Approach::default(),
             key_used: false,
+            key_pending: 0,
             approach_key: 0,
             travel: Travel::None,
             feed_factor: 1.0,
@@ -198,7 +201,8 @@ impl Axis {
                 == (other.feed_factor, other.feed_override, other.override_is_active)
             && (self.feed_held, self.feed_disabled, self.feed_holder)
                 == (other.feed_held, other.feed_disabled, other.feed_holder)
-            && (self.key_used, self.approach_key, self.limits) == (other.key_used, other.approach_key, other.limits)
+            && (self.key_used, self.key_pending, self.approach_key, self.limits)
+                == (other.key_used, other.key_pending, other.approach_key, other.limits)
             && (self.offset, self.referenced, self.restored) == (other.offset, other.referenced, other.restored)
             && (&self.jogging, self.speed_controlled) == (&other.jogging, other.speed_controlled)
             && self.signals == other.signals

@@ -83,10 +83,12 @@ impl State {
         }
     }
 
-    /// Adds the pulses of handwheels to the distance of an axis, if this is permitted.
+    /// Adds the pulses of handwheels to the distance of an axis, if this is permitted. `off` is an axis of its unit that is not in position
+    /// control.
     pub(in crate::sinumerik) fn take_handwheels(
         &mut self,
         number: AxisNumber,
+        off: Option<AxisNumber>,
         parameters: &Parameters,
         signals: &AxisToNck,
     ) {
@@ -122,7 +124,7 @@ impl State {
             }
         }
         let moved = turned.is_some();
-        let (hold, held_by) = self.handwheel_hold(number, axis_parameters, signals);
+        let (hold, held_by) = self.handwheel_hold(number, off, axis_parameters, signals);
         let jogging = &mut self.axes[number].jogging;
         jogging.turn_cause = turned.unwrap_or(jogging.turn_cause);
         let increment = limited(jogging.function.way(axis_parameters), axis_parameters.handwheel_maximum);
@@ -190,12 +192,20 @@ impl State {
     }
 
     /// The stop conditions of MD32084, and the signal of the one that decides.
-    fn handwheel_hold(&self, number: AxisNumber, parameters: &AxisParameters, signals: &AxisToNck) -> (Hold, Input) {
+    fn handwheel_hold(
+        &self,
+        number: AxisNumber,
+        off: Option<AxisNumber>,
+        parameters: &AxisParameters,
+        signals: &AxisToNck,
+    ) -> (Hold, Input) {
         let axis = &self.axes[number];
-        let off = !axis.enabling.is_on();
-        let pulses = axis.enabling.pulses_enabled();
+        let decides = off.unwrap_or(number);
+        let off = off.is_some();
+        let pulses = self.axes[decides].enabling.pulses_enabled();
         let aborts = |bit: u8| parameters.handwheel_stop_conditions >> bit & 1 == 1;
-        let control = axis_signal(number, axis_from_nck::position_controller_active, axis.enabling.controllers()[2]);
+        let controlled = self.axes[decides].enabling.controllers()[2];
+        let control = axis_signal(decides, axis_from_nck::position_controller_active, controlled);
         let conditions = [
             (0, axis.feed_factor <= 0.0, axis.zero_override(number).1),
             (2, axis.feed_held, axis.feed_holder),

@@ -78,11 +78,13 @@ impl State {
         let (signals, axis_parameters) = (&to_nck.axes[number], &parameters.axes[number]);
         let key = key_direction(signals);
         let stop = self.stop(unit.channel, parameters);
-        let enabled = self.interrupt_keys(unit, stop.is_some(), to_nck);
+        // The first axis of the unit that is not in position control: none of them moves without the others (DYN-01, SIG-01).
+        let off = self.not_in_control(unit);
+        let enabled = self.interrupt_keys(unit, off, stop.is_some(), to_nck);
         let jogging = &mut self.axes[number].jogging;
         let way = jogging.function.way(axis_parameters);
         jogging.take_keys(key, signals.traversing_key_disable(), way, parameters.key_modes);
-        self.take_handwheels(number, parameters, signals);
+        self.take_handwheels(number, off, parameters, signals);
         self.watch_keys_and_handwheels(number, key, signals);
         let axis = &self.axes[number];
         if let Some(stop) = stop {
@@ -106,12 +108,12 @@ impl State {
             return;
         }
         self.axes[number].motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
-        let ended = self.axes[number].begin_or_end_way();
+        let ended = self.axes[number].begin_or_end_way(off.is_none());
         let axis = &self.axes[number];
         let movement = axis.jogging.movement;
         if movement == Movement::None {
             let rule = if ended { Rule::EndReached } else { Rule::KeyReleased };
-            self.show_jogging(number, Travel::None, rule, enabled, signals);
+            self.show_jogging(number, Travel::None, rule, (off, enabled), signals);
             return;
         }
         if let Some(datum) = axis_parameters.immovable_by {
@@ -121,7 +123,7 @@ impl State {
         let direction = movement.direction(axis.setpoint.position);
         let velocity = axis.jog_velocity(axis_parameters, signals);
         // A movement that is held, and one without an enable, waits (O-27).
-        let moves = axis.enabling.is_on() && !axis.feed_held && velocity > 0.0;
+        let moves = off.is_none() && !axis.feed_held && velocity > 0.0;
         if moves {
             let ahead = self.software_limit_ahead(number, direction, parameters, to_nck);
             if direction != 0 && ahead == Ahead::Reached && !matches!(movement, Movement::Pending(..)) {
@@ -138,17 +140,28 @@ impl State {
             Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_)) => Rule::IncrementStarted,
             Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel) => Rule::HandwheelTurned,
         };
-        self.show_jogging(number, travel, rule, enabled, signals);
+        self.show_jogging(number, travel, rule, (off, enabled), signals);
     }
 
-    /// O-26: a lost enable and another machine function or increment end the movement of a key. Returns whether the enables have come
-    /// in this cycle.
-    fn interrupt_keys(&mut self, unit: &Unit, stopped: bool, to_nck: &ToNck) -> bool {
+    fn not_in_control(&self, unit: &Unit) -> Option<AxisNumber> {
+        unit.members().find(|axis| !self.axes[*axis].enabling.is_on())
+    }
+
+    /// O-26: a lost enable and another machine function or increment end the movement of a key. `off` is an axis that is not in position
+    /// control. Returns the axis whose position control has come last, if the enables have come in this cycle.
+    fn interrupt_keys(
+        &mut self,
+        unit: &Unit,
+        off: Option<AxisNumber>,
+        stopped: bool,
+        to_nck: &ToNck,
+    ) -> Option<AxisNumber> {
         let number = unit.leader();
-        let axis = &mut self.axes[number];
-        let on = axis.enabling.is_on();
-        let was_on = std::mem::replace(&mut axis.jogging.was_on, on);
-        let (enabled, lost) = (on && !was_on, was_on && !on);
+        let on = off.is_none();
+        let was_on = std::mem::replace(&mut self.axes[number].jogging.was_on, on);
+        let lost = was_on && !on;
+        let last = unit.members().max_by_key(|axis| self.axes[*axis].causes.enabling);
+        let enabled = last.filter(|_| on && !was_on);
         let axis = &self.axes[number];
         if !axis.jogging.movement.is_by_key() {
             return enabled;
@@ -156,7 +169,8 @@ impl State {
         let cause = if self.log.is_of_this_cycle(axis.jogging.function_cause) {
             axis.jogging.function_cause
         } else if lost && !stopped {
-            let (missing, parent) = (self.missing_enable(unit, to_nck), axis.causes.enabling);
+            let parent = self.axes[off.unwrap_or(number)].causes.enabling;
+            let missing = self.missing_enable(unit, to_nck);
             self.log.note_one(Place::Axis(number), Rule::EnableLost, missing, parent)
         } else {
             return enabled;
@@ -214,8 +228,16 @@ impl State {
         self.travel(number, travel, cause);
     }
 
-    /// Shows the travel of keys or handwheels; `rule` is that of the movement, `enabled` whether the enables have come in this cycle.
-    fn show_jogging(&mut self, number: AxisNumber, travel: Travel, rule: Rule, enabled: bool, signals: &AxisToNck) {
+    /// Shows the travel of keys or handwheels; `rule` is that of the movement, `off` an axis that is not in position control, `enabled` the one
+    /// whose position control has completed the enables in this cycle.
+    fn show_jogging(
+        &mut self,
+        number: AxisNumber,
+        travel: Travel,
+        rule: Rule,
+        (off, enabled): (Option<AxisNumber>, Option<AxisNumber>),
+        signals: &AxisToNck,
+    ) {
         let axis = &self.axes[number];
         let before = axis.travel;
         if before == travel {
@@ -223,7 +245,7 @@ impl State {
         }
         let goes_on = before.request() == travel.request();
         let (rule, input) = if goes_on && travel.is_waiting() {
-            axis.jog_holder(number)
+            axis.jog_holder(number, off)
         } else if goes_on && before.is_waiting() {
             axis.jog_released(number, rule, enabled)
         } else if goes_on {
@@ -262,10 +284,10 @@ impl State {
 impl Axis {
     /// Starts a waiting distance and ends one whose target is reached. Returns whether one ended. An increment begins at
     /// standstill.
-    fn begin_or_end_way(&mut self) -> bool {
+    fn begin_or_end_way(&mut self, is_on: bool) -> bool {
         let rests = self.setpoint.is_at_rest();
         if let Movement::Pending(way, by) = self.jogging.movement
-            && self.enabling.is_on()
+            && is_on
             && (rests || by == By::Handwheel)
         {
             self.jogging.movement = Movement::Path(self.setpoint.position + way, by);
@@ -279,10 +301,10 @@ impl Axis {
     }
 
     /// The rule and the signal that hold its movement.
-    fn jog_holder(&self, number: AxisNumber) -> (Rule, Input) {
+    fn jog_holder(&self, number: AxisNumber, off: Option<AxisNumber>) -> (Rule, Input) {
         if !self.is_held() {
-            let control = axis_signal(number, axis_from_nck::position_controller_active, false);
-            return (Rule::MotionBlocked, if self.enabling.is_on() { Input::None } else { control });
+            let control = |axis| axis_signal(axis, axis_from_nck::position_controller_active, false);
+            return (Rule::MotionBlocked, off.map_or(Input::None, control));
         }
         let (rule, input) = self.holder(number);
         let zero_setting = !self.feed_held && !self.override_is_active;
@@ -290,9 +312,9 @@ impl Axis {
     }
 
     /// The rule and the signal that no longer hold its movement; `rule` is that of the movement.
-    fn jog_released(&self, number: AxisNumber, rule: Rule, enabled: bool) -> (Rule, Input) {
-        if enabled {
-            (rule, axis_signal(number, axis_from_nck::position_controller_active, true))
+    fn jog_released(&self, number: AxisNumber, rule: Rule, enabled: Option<AxisNumber>) -> (Rule, Input) {
+        if let Some(enabled) = enabled {
+            (rule, axis_signal(enabled, axis_from_nck::position_controller_active, true))
         } else if self.feed_holder == Input::None {
             (Rule::OverrideReleased, self.override_input(number))
         } else {

@@ -56,7 +56,9 @@ impl State {
             }
             Action::WaitEnd(others) => {
                 let others = channels(others);
-                if !self.have_ended(own, &others) {
+                // A program that START of this cycle begins runs from the end of the stage on.
+                let starts = run.starts.iter().any(|(_, other, _)| others.contains(other));
+                if starts || !self.have_ended(own, &others) {
                     run.waits = Some(WaitFor::End(others));
                 }
             }

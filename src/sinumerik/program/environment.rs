@@ -19,6 +19,7 @@ use crate::sinumerik::machine_data::{
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::parameters::spindle::REVOLUTION_PER_MINUTE;
+use crate::sinumerik::program::geometry;
 use crate::sinumerik::program::main_run::MAIN_RUN_VARIABLES;
 use crate::sinumerik::program::state::{ChannelProgram, ProgramState, Run};
 use crate::sinumerik::single_axis::state::SingleAxes;
@@ -53,6 +54,8 @@ pub(in crate::sinumerik) struct Channel<'a> {
     /// What holds after the last prepared block: G functions and the path feed.
     pub modal: Modal,
     pub feed: Option<f64>,
+    /// The programmable offsets there.
+    pub offset: Vec<(AxisIndex, f64)>,
     /// $P_SEARCHL.
     pub search_level: u8,
     /// R parameters that were written, with their values before.
@@ -70,6 +73,15 @@ impl<'a> Channel<'a> {
         self.prepared_spindles.clone_from(&run.prepared_spindles);
         self.is_executed = run.is_executed();
         (self.modal, self.feed) = (run.interpreter.modal(), run.interpreter.feed());
+        self.offset.clear();
+        self.offset.extend_from_slice(run.interpreter.offset());
+    }
+
+    /// The settable and the programmable offset of an axis, with the G functions and the programmable offsets that hold.
+    fn offset(&self, axis: AxisNumber, modal: Modal, programmable: &[(AxisIndex, f64)]) -> Position {
+        let rotary = self.all.axes[axis].rotary;
+        let programmable = geometry::offset_of(programmable, modal, &self.parameters.axes, axis, rotary);
+        self.program.settable_offset(modal.index(8), axis) + programmable
     }
 
     fn axis(&self, value: Option<&Value>) -> Result<AxisNumber, Refusal> {
@@ -254,16 +266,16 @@ impl Environment for Channel<'_> {
         let axis = || self.axis(variable.indices.first());
         let length = |position: Position| Value::Real(position.user());
         match variable.name {
-            "$AA_IM" | "$AA_IW" | "$AA_IB" => {
+            "$AA_IM" => {
+                let axis = &self.axes[axis()?];
+                Ok(length(axis.setpoint.position + axis.overlay.position()))
+            }
+            // Without a transformation the basic coordinates are those of the machine.
+            "$AA_IB" => Ok(length(self.axes[axis()?].setpoint.position)),
+            "$AA_IW" => {
                 let axis = axis()?;
-                let setpoint = self.axes[axis].setpoint.position;
-                let offset = if variable.name == "$AA_IM" {
-                    Position::ZERO - self.axes[axis].overlay.position()
-                } else {
-                    let modal = self.program.modal.index(8);
-                    self.program.settable_offset(modal, axis)
-                };
-                Ok(length(setpoint - offset))
+                let offset = self.offset(axis, self.program.modal, &self.program.programmable);
+                Ok(length(self.axes[axis].setpoint.position - offset))
             }
             "$VA_IM" => {
                 let axis = &self.axes[axis()?];
@@ -279,7 +291,8 @@ impl Environment for Channel<'_> {
             "$P_EP" => {
                 let axis = axis()?;
                 let place = self.parameters.axes.place(axis).ok_or(Refusal::Axis)?;
-                Ok(Value::Real(self.end[place] / Position::PER_USER_UNIT))
+                let offset = self.offset(axis, self.modal, &self.offset);
+                Ok(Value::Real((self.end[place] - offset.increments() as f64) / Position::PER_USER_UNIT))
             }
             "$AA_TYP" => Ok(Value::Int(self.owners.axis_type(axis()?, self.channel))),
             "$AA_AXCHANGE_TYP" => {

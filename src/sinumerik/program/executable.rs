@@ -7,7 +7,7 @@ use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin};
 use crate::sinumerik::parameters::programs::OutputTime;
 use crate::sinumerik::program::auxiliary::Package;
 use crate::sinumerik::program::positioning::Positioning;
-use crate::units::{AxisNumber, AxisSet};
+use crate::units::{AxisNumber, AxisSet, Position};
 
 /// The state of preparation behind a block: from there it can read on once more.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,6 +98,19 @@ impl Executable {
 
     pub(in crate::sinumerik) fn has_outputs(&self) -> bool {
         self.outputs.iter().any(|package| !package.is_empty())
+    }
+
+    /// It begins behind an interruption: a motion on the path begins at the interruption point, with all axes. What else moves or shifts an axis
+    /// begins where the axis is.
+    pub(in crate::sinumerik) fn begin_behind_interruption(&self, left: &mut Vec<(AxisNumber, Position)>) {
+        let shifts = |action: &Action| matches!(action, Action::Preset(_) | Action::Get { .. } | Action::Release(_));
+        if self.way.is_some() || self.actions.iter().any(shifts) {
+            left.clear();
+        }
+        let moves = |axis: AxisNumber| {
+            self.references.contains(&axis) || self.positions.iter().any(|positioning| positioning.axis == axis)
+        };
+        left.retain(|(axis, _)| !moves(*axis));
     }
 
     /// Whether it is one action and nothing else.

@@ -105,6 +105,8 @@ impl State {
     fn run_program(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> bool {
         let channel = stage.channel;
         run.pauses = false;
+        // An axis that another holder gets begins where that leaves it.
+        run.left.retain(|(axis, _)| self.owners.is_program_axis(*axis, channel));
         let runs = matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting);
         if runs && run.stopping.is_none() && run.resetting.is_none() {
             run.stopping = self.program_stopper(channel, run.is_mda, stage.parameters, stage.to_nck);
@@ -153,6 +155,9 @@ impl State {
                 }
             }
             self.lengthen_path(run, stage);
+        }
+        if runs && !matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting) {
+            self.note_interruption_point(run, stage);
         }
         self.show_interruption(channel, stage.parameters);
         true
@@ -268,9 +273,13 @@ impl State {
         let event = self.log.note_one(place, Rule::BlockBegins, input, program.cause);
         (run.block_cause, run.block_cycle) = (event, self.log.cycle);
         let modal = block.modal;
-        let feed = block.block.as_ref().and_then(|read| read.block.feed);
+        let read = block.block.as_ref().map(|read| &read.block);
+        let feed = read.and_then(|block| block.feed);
         let program = &mut self.programs[stage.channel];
         program.last_feed = feed.or(program.last_feed);
+        if let Some(block) = read {
+            program.programmable.clone_from(&block.offset);
+        }
         if program.modal != modal {
             let switches = program.modal.index(24) != modal.index(24);
             (program.modal, program.modal_cause) = (modal, event);
@@ -349,6 +358,7 @@ impl State {
             block_begun: run.block_cycle as f64 * stage.parameters.cycle.seconds(),
             modal: run.interpreter.modal(),
             feed: run.interpreter.feed(),
+            offset: run.interpreter.offset().to_vec(),
             r_written: Vec::new(),
             search_level: run.search.as_ref().map_or(0, |search| search.level()),
             prepared_spindles: Vec::new(),
@@ -438,6 +448,7 @@ impl State {
     fn begin_motion(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &Sources<'_>) {
         let cycle = stage.parameters.cycle.seconds();
         let Some(block) = run.queue.front() else { return };
+        block.begin_behind_interruption(&mut run.left);
         let path = &stage.own.axes.path;
         if run.path.is_empty() && run.returning.is_none() {
             let position = block

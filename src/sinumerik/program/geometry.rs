@@ -1,7 +1,7 @@
 //! Geometry of a block: units, offsets, targets in machine coordinates, circles.
 
 use crate::motion::path::{Circle, PerPathAxis, Turn, Way};
-use crate::nc_program::{self, Block, Dimension, GFunction, g};
+use crate::nc_program::{self, AxisIndex, Block, Dimension, GFunction, Modal, g};
 use crate::sinumerik::parameters::programs::{ProgramAxes, ProgramParameters};
 use crate::units::{AxisNumber, Position};
 
@@ -27,8 +27,8 @@ pub(in crate::sinumerik) fn is_exact_stop(block: &Block) -> bool {
 }
 
 /// Whether lengths are in inches: G70 and G700.
-pub(in crate::sinumerik) fn is_inch(block: &Block) -> bool {
-    matches!(block.modal.index(13), 1 | 3)
+fn is_inch(modal: Modal) -> bool {
+    matches!(modal.index(13), 1 | 3)
 }
 
 /// The path feed in increments per second. G70 and G71 leave feeds in the basic system, G700 and G710 do not.
@@ -48,8 +48,12 @@ pub(in crate::sinumerik) fn is_per_revolution(block: &Block) -> bool {
 
 /// A programmed length in increments.
 pub(in crate::sinumerik) fn length(value: f64, block: &Block, is_rotary: bool) -> f64 {
-    let factor = if is_inch(block) && !is_rotary { INCH } else { 1.0 };
-    Position::from_user(value * factor).increments() as f64
+    length_with(value, block.modal, is_rotary).increments() as f64
+}
+
+fn length_with(value: f64, modal: Modal, is_rotary: bool) -> Position {
+    let factor = if is_inch(modal) && !is_rotary { INCH } else { 1.0 };
+    Position::from_user(value * factor)
 }
 
 /// The target of an axis in machine coordinates, in increments: `value` is programmed, `from` is where the axis is before.
@@ -187,8 +191,20 @@ pub(in crate::sinumerik) fn programmable_offset(
     axis: AxisNumber,
     is_rotary: bool,
 ) -> f64 {
-    let of_axis = |(name, _): &&(nc_program::AxisIndex, f64)| axes.machine_axes.get(usize::from(name.0)) == Some(&axis);
-    block.offset.iter().rev().find(of_axis).map_or(0.0, |(_, value)| length(*value, block, is_rotary))
+    offset_of(&block.offset, block.modal, axes, axis, is_rotary).increments() as f64
+}
+
+/// The programmable offset of an axis among those of a block or of the preparation, with the G functions that hold there.
+pub(in crate::sinumerik) fn offset_of(
+    offsets: &[(AxisIndex, f64)],
+    modal: Modal,
+    axes: &ProgramAxes,
+    axis: AxisNumber,
+    is_rotary: bool,
+) -> Position {
+    let of_axis = |(name, _): &&(AxisIndex, f64)| axes.machine_axes.get(usize::from(name.0)) == Some(&axis);
+    let found = offsets.iter().rev().find(of_axis);
+    found.map_or(Position::ZERO, |(_, value)| length_with(*value, modal, is_rotary))
 }
 
 /// The active function of each group that the PLC sees, with what holds only in this block.

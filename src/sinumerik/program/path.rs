@@ -169,6 +169,20 @@ impl State {
         })
     }
 
+    /// The program has stopped. Without a block on the path, its axes are where the last one ended; axes that have not returned from an earlier
+    /// interruption still have to.
+    pub(super) fn note_interruption_point(&self, run: &mut Run, stage: &Stage<'_>) {
+        if !run.path.is_empty() {
+            return;
+        }
+        for &axis in &stage.own.axes.path {
+            let is_known = run.left.iter().any(|(of, _)| *of == axis);
+            if !is_known && !run.leaves_alone(axis) && self.owners.is_program_axis(axis, stage.channel) {
+                run.left.push((axis, self.axes[axis].setpoint.position));
+            }
+        }
+    }
+
     /// A straight line from where the axes stand to the path; `None` while one of them still moves.
     fn way_back(&self, run: &Run, stage: &Stage<'_>) -> Option<Path> {
         let axes = &stage.own.axes;

@@ -55,8 +55,11 @@ impl Run {
                 return;
             }
             if self.is_executed() && !self.search.as_ref().is_some_and(|search| search.calculates()) {
-                // Something else may have moved the axes.
-                self.end = on_path(&preparing.own.axes.path, |axis| preparing.axes[axis].setpoint.position);
+                // Something else may have moved the axes. From JOG they return to where the program has left them.
+                self.end = on_path(&preparing.own.axes.path, |axis| {
+                    let left = self.left.iter().find(|(of, _)| *of == axis);
+                    left.map_or(preparing.axes[axis].setpoint.position, |(_, position)| *position)
+                });
             }
             self.holds_preparation &= !self.is_executed();
             if self.holds_preparation {
@@ -356,6 +359,10 @@ impl Preparing<'_> {
                 }
                 Action::Reference(names) => {
                     for name in names {
+                        let named = self.own.axes.machine_axes.get(usize::from(name.0));
+                        if named.is_some_and(|axis| self.parameters.axes[*axis].spindle.is_some()) {
+                            return Err(alarm(block, alarms::WRONG_AXIS_TYPE, self.name(*name)));
+                        }
                         let axis = self
                             .path_axis(block, *name)
                             .ok()

@@ -1,10 +1,13 @@
 //! PRESETON of a program and PRESET of the operator: an axis gets another actual value at the place where it stands (SYN-10).
 //!
 //! Only the leading axis of a grouping can be preset. The values of all its axes are shifted by the same distance, so that the difference between
-//! them stays; all of them lose their references, and the grouping its synchronism. Nothing moves.
+//! them stays; all of them lose their references, and the grouping its synchronism. Nothing moves. The operator presets in JOG, at standstill.
 
+use crate::image::mode_group_from_nck;
 use crate::sinumerik::alarms;
+use crate::sinumerik::inputs::mode_group_signal;
 use crate::sinumerik::nck::Nck;
+use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::source::Problem;
@@ -28,12 +31,14 @@ impl Nck {
         self.stored().axis_name(axis).to_owned()
     }
 
-    /// PRESET of the operator; 22321 while an axis of the unit moves.
+    /// PRESET of the operator; 22321 in another mode than JOG, and while an axis of the unit moves.
     pub(in crate::sinumerik) fn preset(&mut self, axis: AxisNumber, value: f64) -> EventId {
         let state = &mut *self.state;
         let Some(unit) = state.unit_of(axis) else { return EventId::NONE };
-        let event = state.log.note_plain(Place::Axis(axis), Rule::PresetByOperator, EventId::NONE);
-        if unit.members().any(|member| state.axes[member].is_in_motion()) {
+        let jog = state.mode_group(&unit).mode == Mode::Jog;
+        let input = mode_group_signal(unit.mode_group, mode_group_from_nck::active_mode_jog, jog);
+        let event = state.log.note_one(Place::Axis(axis), Rule::PresetByOperator, input, EventId::NONE);
+        if !jog || unit.members().any(|member| state.axes[member].is_in_motion()) {
             let shown = [Parameter::Channel(unit.channel), Parameter::Axis(axis), Parameter::None, Parameter::None];
             state.alarms.raise(alarms::programs::PRESET_IN_MOTION, Place::Axis(axis), shown, event);
         } else {

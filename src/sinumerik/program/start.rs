@@ -1,6 +1,6 @@
 //! NC start and its refusals, stop, RESET, the end of a program, and what a change of the mode does to it.
 
-use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_from_nck};
+use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_from_nck, mode_group_to_nck};
 use crate::motion::path::{PATH_AXES, Path, PathLimits};
 use crate::nc_program::{Interpreter, Library};
 use crate::sinumerik::alarms::{Reaction, START_WITHOUT_REFERENCE, programs as alarms};
@@ -35,7 +35,12 @@ impl State {
         let mode = self.mode_groups[group].mode;
         let place = Place::Channel(channel);
         let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
-        let stops = signals.nc_stop() || signals.nc_stop_at_block_limit() || signals.nc_stop_axes_plus_spindles();
+        let of_group = &to_nck.mode_groups[group];
+        let stops = signals.nc_stop()
+            || signals.nc_stop_at_block_limit()
+            || signals.nc_stop_axes_plus_spindles()
+            || of_group.mode_group_stop()
+            || of_group.mode_group_stop_axes_plus_spindles();
         if self.is_start_disabled(channel, to_nck) || stops {
             return;
         }
@@ -143,6 +148,7 @@ impl State {
         (program.state, program.cause) = (ProgramState::Running, event);
         (program.ended, program.programmed_stop, program.associated_stop) = (false, false, false);
         (program.modal, program.modal_cause) = (own.modal, event);
+        program.programmable.clear();
     }
 
     /// The feed with which a program begins: with MD22410 that of the last one, else SD42110.
@@ -180,6 +186,7 @@ impl State {
             limits,
             returning: None,
             end: position,
+            left: Vec::new(),
             numbers: 0,
             axis_feeds: Vec::new(),
             positionings: Vec::new(),
@@ -261,6 +268,7 @@ impl State {
         (program.ended, program.programmed_stop, program.associated_stop) = (by_itself, false, false);
         (program.modal, program.modal_cause) = (own.modal, event);
         program.message = None;
+        program.programmable.clear();
         program.search_cause = event;
         program.actions.retain(|one| one.action.is_static);
     }
@@ -300,6 +308,15 @@ impl State {
             return Some(self.log.note_one(place, Rule::NcStop, input, before));
         }
         let group = parameters.mode_group(channel);
+        let signals = &to_nck.mode_groups[group];
+        let pressed = [
+            (signals.mode_group_stop(), mode_group_to_nck::mode_group_stop),
+            (signals.mode_group_stop_axes_plus_spindles(), mode_group_to_nck::mode_group_stop_axes_plus_spindles),
+        ];
+        if let Some((_, signal)) = pressed.into_iter().find(|(is_pressed, _)| *is_pressed) {
+            let input = mode_group_signal(group, signal, true);
+            return Some(self.log.note_one(place, Rule::NcStop, input, before));
+        }
         let wanted = if is_mda { Mode::Mda } else { Mode::Automatic };
         if self.mode_groups[group].mode != wanted {
             let shown =

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::SearchKind;
 use crate::motion::path::{PATH_AXES, Path, PathLimits, PerPathAxis};
-use crate::nc_program::{Interpreter, Modal, ProgramAlarm, SynchronisedAction};
+use crate::nc_program::{AxisIndex, Interpreter, Modal, ProgramAlarm, SynchronisedAction};
 use crate::sinumerik::exchange::state::Claim;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::auxiliary::Output;
@@ -81,6 +81,8 @@ pub(in crate::sinumerik) struct ChannelProgram {
     pub output: Output,
     /// Settable offsets: index in G group 8, axis, value.
     pub offsets: Vec<(u8, AxisNumber, Position)>,
+    /// The programmable offsets of the block that runs, or of the last one.
+    pub programmable: Vec<(AxisIndex, f64)>,
     pub message: Option<String>,
     /// The path feed of the last block that had one, which stays with MD22410.
     pub last_feed: Option<f64>,
@@ -109,6 +111,7 @@ impl ChannelProgram {
             modal_cause: EventId::NONE,
             output: Output::default(),
             offsets: Vec::new(),
+            programmable: Vec::new(),
             message: None,
             last_feed: None,
             run: None,
@@ -259,6 +262,8 @@ pub(in crate::sinumerik) struct Run {
     pub returning: Option<Path>,
     /// Where the prepared blocks end, in machine coordinates.
     pub end: PerPathAxis,
+    /// Where its axes were when it stopped between two blocks: the next motion begins there, so that they return first.
+    pub left: Vec<(AxisNumber, Position)>,
     /// Numbers the blocks on the path.
     pub numbers: u64,
     /// The feeds of positioning axes (FA), in mm/min or rev/min.

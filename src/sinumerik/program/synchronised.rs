@@ -91,6 +91,7 @@ impl State {
             block_begun: run.block_cycle as f64 * cycle,
             modal: run.interpreter.modal(),
             feed: run.interpreter.feed(),
+            offset: run.interpreter.offset().to_vec(),
             search_level: 0,
             r_written: Vec::new(),
             end: run.end,

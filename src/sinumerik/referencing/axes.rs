@@ -3,7 +3,7 @@
 //! Called in the stage "referencing and gantry". A held key starts one approach. It must be released before it starts another
 //! one, also if it was pressed while the approach ran, before REF was selected, or during RESET, emergency stop or an alarm that
 //! stops (O-26). A key that is pressed before the axes are in position control stays pending until they are, and the traverse command
-//! is already output (O-27). A key in REF of a synchronous axis of an open grouping raises 16794 (E-15).
+//! is already output (O-27). With MD11300 = 0 it stays pending also when it is released; RESET, leaving REF, the other key and 4.4 end that. A key in REF of a synchronous axis of an open grouping raises 16794 (E-15).
 //! A spindle (MD35000) has no approach: its key starts none, and channel-specific referencing and NC start leave it out.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, mode_group_from_nck};
@@ -112,8 +112,13 @@ impl State {
         }
         let pressed = key_direction(&to_nck.axes[number]) != 0;
         let unheard = !self.mode_group(unit).is_referencing() || self.stop(unit.channel, parameters).is_some();
-        let used = self.axes[number].key_used || busy || unheard;
-        self.axes[number].key_used = pressed && used;
+        let axis = &mut self.axes[number];
+        axis.key_used = pressed && (axis.key_used || busy || unheard);
+        let signals = &to_nck.axes[number];
+        let other = if axis.key_pending > 0 { signals.traversing_key_minus() } else { signals.traversing_key_plus() };
+        if busy || unheard || other || signals.traversing_key_disable() {
+            axis.key_pending = 0;
+        }
     }
 
     /// Shows an approach that is requested and waits for an enable or for the end of feed disable (O-27). Returns whether it is shown.
@@ -132,6 +137,10 @@ impl State {
         if !self.travels(number, &parameters.axes[number]) {
             // Nothing will move.
             return false;
+        }
+        if by == RequestedBy::Key && !parameters.jog_mode {
+            // The press counts: the key need not be held (MD11300 = 0).
+            self.axes[number].key_pending = direction;
         }
         // An approach that begins on the cam first leaves it.
         let on_cam = parameters.axes[number].reference.cam_is_active
@@ -186,7 +195,10 @@ impl State {
         let number = unit.leader();
         let reference = &parameters.axes[number].reference;
         let signals = &to_nck.axes[number];
-        let key = key_direction(signals);
+        let key = match key_direction(signals) {
+            0 => self.axes[number].key_pending,
+            key => key,
+        };
         let active = self.axes[number].measuring_system.map(usize::from);
         let has_approach = active.is_some_and(|active| reference.has_approach(active));
         let hindered = reference.is_spindle || signals.axis_spindle_disable();
@@ -244,13 +256,17 @@ impl State {
             return Some((direction, event));
         }
         self.axes[number].key_used = true;
+        let is_pending = std::mem::take(&mut self.axes[number].key_pending) != 0;
+        let pressed = key_direction(&to_nck.axes[number]) == direction;
         let minus = parameters.axes[number].reference.cam_direction < 0.0;
         let inputs = [
-            axis_signal(number, key_signal(direction), true),
+            axis_signal(number, key_signal(direction), pressed),
             Input::Datum(34010, Some(number), f64::from(u8::from(minus))),
             mode_group_signal(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true),
         ];
-        let parent = self.mode_group(unit).function_cause;
+        // A key that is released was pressed when the request began to wait.
+        let waited = is_pending && !pressed;
+        let parent = if waited { self.axes[number].causes.motion } else { self.mode_group(unit).function_cause };
         let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, parent);
         Some((direction, event))
     }
@@ -414,6 +430,12 @@ impl State {
             filter.shift(shift);
         }
         self.value_shifted(number, shift);
+        // An interruption point in other coordinates is none.
+        for (_, program) in self.programs.iter_mut() {
+            if let Some(run) = &mut program.run {
+                run.left.retain(|(axis, _)| *axis != number);
+            }
+        }
         // The base of the limits ends with a new reference (E-14).
         for grouping in &mut self.groupings {
             if grouping.coupling.members().any(|axis| axis == number) {

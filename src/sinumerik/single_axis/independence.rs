@@ -10,6 +10,7 @@
 
 use crate::image::{AxisToNck, axis_to_nck};
 use crate::sinumerik::alarms::{Reaction, axis_exchange as alarms};
+use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::{Independence, Outcome};
@@ -27,7 +28,7 @@ impl State {
         }
         let Some(unit) = self.unit_of(axis) else { return };
         if !before.taken {
-            if self.is_exchange_free(&unit) {
+            if self.is_free_of_programs(&unit) {
                 let pressed = axis_signal(axis, axis_to_nck::plc_controls_axis, true);
                 self.note_independence(axis, Rule::PlcControls, pressed, |one| one.taken = true);
             }
@@ -109,8 +110,9 @@ impl State {
         one.cause = event;
     }
 
-    /// Whether no block of a program uses the axes of a unit.
-    fn is_exchange_free(&self, unit: &Unit) -> bool {
-        !self.owners.used.contains(unit.leader())
+    /// Whether no block of a program uses the axes of a unit: the PLC has them, and may be positioning them, or nothing uses them.
+    fn is_free_of_programs(&self, unit: &Unit) -> bool {
+        let leader = unit.leader();
+        self.owners.of(leader).holder == Holder::Plc || !self.owners.used.contains(leader)
     }
 }

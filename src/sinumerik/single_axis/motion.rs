@@ -1,11 +1,11 @@
 //! The stage: each axis that is positioned alone, for one cycle.
 
-use crate::image::{AxisToNck, ToNck, axis_from_nck, axis_to_nck, channel_to_nck};
+use crate::image::{AxisToNck, ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_to_nck};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::axis::traversing::Stop;
 use crate::sinumerik::exchange::state::Holder;
-use crate::sinumerik::inputs::{axis_signal, channel_signal};
+use crate::sinumerik::inputs::{axis_signal, channel_signal, mode_group_signal};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::program::state::Led;
@@ -186,6 +186,10 @@ impl State {
         if channel.nc_stop_axes_plus_spindles() && !independence.taken {
             let pressed = channel_to_nck::nc_stop_axes_plus_spindles;
             return Some((Rule::NcStop, channel_signal(unit.channel, pressed, true)));
+        }
+        if to_nck.mode_groups[unit.mode_group].mode_group_stop_axes_plus_spindles() && !independence.taken {
+            let pressed = mode_group_to_nck::mode_group_stop_axes_plus_spindles;
+            return Some((Rule::NcStop, mode_group_signal(unit.mode_group, pressed, true)));
         }
         let ignores_feed_disable = is_plc_axis && parameters.axes[axis].plc_axis.ignores_feed_disable;
         if let Some(disabled) = self.feed_disable(unit.channel, to_nck).filter(|_| !ignores_feed_disable) {

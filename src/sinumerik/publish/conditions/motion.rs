@@ -120,6 +120,8 @@ impl Look<'_> {
         let mut all = vec![self.axis(number, axis_from_nck::axis_stop_active, false)];
         if !self.state.single.axes[number].independence.taken {
             all.push(self.channel(unit.channel, channel_to_nck::nc_stop_axes_plus_spindles, false));
+            let of_group = mode_group_to_nck::mode_group_stop_axes_plus_spindles;
+            all.push(self.mode_group(unit.mode_group, of_group, false));
         }
         let is_plc_axis = self.state.owners.of(number).holder == Holder::Plc;
         if !(is_plc_axis && self.parameters.axes[number].plc_axis.ignores_feed_disable) {
@@ -173,7 +175,7 @@ impl Look<'_> {
             any.push(self.function_stays(unit.leader(), unit.mode_group).opposite());
         }
         // O-26: an enable that is missing from the beginning is waited for.
-        if axis.approach.is_running() || jogs && axis.jogging.movement.is_by_key() && axis.enabling.is_on() {
+        if axis.approach.is_running() || jogs && axis.jogging.movement.is_by_key() && axis.jogging.was_on {
             any.push(Condition::All(self.enables_of_axes(&unit)).opposite());
         }
         Condition::Any(any)
@@ -307,7 +309,8 @@ impl Look<'_> {
             all.push(self.axis(number, axis_from_nck::ramp_function_generator_disable_active, false));
             let ahead = self.state.software_limit_ahead(number, direction, self.parameters, self.to_nck);
             // The limit is tested when the axis may move.
-            let reached = ahead == Ahead::Reached && axis.enabling.is_on() && !axis.is_held();
+            let is_on = unit.members().all(|axis| self.state.axes[axis].enabling.is_on());
+            let reached = ahead == Ahead::Reached && is_on && !axis.is_held();
             all.push(fact(format!("{name} is before its software limit"), !reached).into());
         }
         Condition::All(all)

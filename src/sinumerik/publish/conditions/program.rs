@@ -2,7 +2,8 @@
 
 use crate::control::{Condition, Fact, Question};
 use crate::image::{
-    ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck, mode_group_from_nck,
+    ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck,
+    mode_group_from_nck, mode_group_to_nck,
 };
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::program::search_state::Search;
@@ -119,6 +120,8 @@ impl Look<'_> {
             asks(channel_to_nck::nc_stop, false),
             asks(channel_to_nck::nc_stop_at_block_limit, false),
             asks(channel_to_nck::nc_stop_axes_plus_spindles, false),
+            self.mode_group(group, mode_group_to_nck::mode_group_stop, false),
+            self.mode_group(group, mode_group_to_nck::mode_group_stop_axes_plus_spindles, false),
             asks(channel_from_nck::all_axes_requiring_reference_point_are_referenced, true),
             self.no_alarm(format!("alarm that disables NC start of {}", self.channel_name(channel)), |place, alarm| {
                 alarm.reaction.has(Reaction::START_DISABLED)
