@@ -94,6 +94,8 @@ pub enum Override {
     Feed,
     /// Rapid traverse of a channel.
     RapidTraverse,
+    /// The speed of a spindle.
+    Spindle,
 }
 
 /// The signals of an axis that its switches set.

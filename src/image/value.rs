@@ -2,7 +2,7 @@
 
 use crate::source::{Node, Problem, Value};
 
-use super::{Format, Location, OverrideCoding, override_code};
+use super::{Format, Location, OverrideCoding};
 
 /// The raw bits of a value from a file. A whole number must fit (a negative number as two's complement). A number with a fraction requires
 /// a REAL, `true` and `false` require a bit, `"100%"` requires an override. A text such as `"2#1101_0000"` or `"16#D0"` is a whole number.
@@ -81,14 +81,12 @@ fn real(number: f64, node: &Node) -> Result<u64, Problem> {
 pub fn signal_value(name: &str, node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
     if let Value::Integer(number) = node.value
         && is_no_code(name, number, location, coding)
+        && let Some((_, known)) = coding.code(location, None)
     {
         let bits = number.cast_unsigned() & location.mask();
         return Err(node.place.problem(
             format!("expected a percentage or a Gray code from 0 to {LARGEST_GRAY_CODE} for `{name}`, found {number}"),
-            format!(
-                "write \"{name}\" = \"100%\", or any bits as \"16#{bits:X}\"; its percentages are {}",
-                OverrideCoding::known(true)
-            ),
+            format!("write \"{name}\" = \"100%\", or any bits as \"16#{bits:X}\"; its percentages are {known}"),
         ));
     }
     raw_value(node, location, coding)
@@ -99,14 +97,14 @@ pub fn signal_value(name: &str, node: &Node, location: Location, coding: Overrid
 pub fn is_no_code(name: &str, number: i64, location: Location, coding: OverrideCoding) -> bool {
     let is_symbol =
         name.split_once('.').is_some_and(|(_, signal)| signal.starts_with(|c: char| c.is_ascii_lowercase()));
-    is_symbol && !(0..=i64::from(LARGEST_GRAY_CODE)).contains(&number) && coding.at(location) == Some(true)
+    is_symbol && !(0..=i64::from(LARGEST_GRAY_CODE)).contains(&number) && coding.at(location).is_some_and(|(_, gray)| gray)
 }
 
 /// The largest code of an override switch with Gray code, which has five bits.
 const LARGEST_GRAY_CODE: u8 = 31;
 
 fn per_cent(text: &str, node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
-    let Some(gray) = coding.at(location) else {
+    let Some((code, known)) = coding.code(location, text.trim().parse().ok()) else {
         let mut takers: Vec<_> = coding.interface.tables().overrides.iter().map(|(signal, _)| signal.name).collect();
         takers.dedup();
         let cure = match &takers[..] {
@@ -115,11 +113,10 @@ fn per_cent(text: &str, node: &Node, location: Location, coding: OverrideCoding)
         };
         return Err(node.expected("a plain number", &cure));
     };
-    let code = text.trim().parse().ok().and_then(|percent| override_code(percent, gray));
     code.map(u64::from).ok_or_else(|| {
         node.expected(
             "a percentage of the override switch",
-            &format!("its percentages are {}", OverrideCoding::known(gray)),
+            &format!("its percentages are {known}"),
         )
     })
 }

@@ -47,7 +47,10 @@ pub(super) fn parse(line: &str, dialect: &Dialect, axes: &AxisNames) -> Result<S
         return Err(Fault::new(12630, at, "write it in the block before or behind"));
     }
     if !parser.is_at_end() {
-        return Err(parser.syntax("nothing more is expected here"));
+        return Err(parser.syntax(match parser.is_symbol(0, Symbol::Assign) {
+            true => "nothing more is expected here; a comparison is written with `==`",
+            false => "nothing more is expected here",
+        }));
     }
     Ok(SourceBlock { skip, statement, warnings: parser.warnings })
 }

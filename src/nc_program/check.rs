@@ -28,6 +28,7 @@ use super::syntax::{
 };
 use super::value::{Type, Value};
 use super::variables::{Variable, index};
+use super::vocabulary::is_keyword;
 
 /// A finding of the check.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,6 +74,7 @@ pub fn check(program: &Program, library: &Library, axes: &AxisNames, dialect: &'
         is_straight: true,
         last: Last::Nothing,
         macros: Vec::new(),
+        undefined: Vec::new(),
         findings: Vec::new(),
     };
     for line in 1..=program.count() {
@@ -98,7 +100,15 @@ struct Checker<'a> {
     is_straight: bool,
     last: Last,
     macros: Vec<Macro>,
+    /// The words of DEF and PROC blocks with an alarm: alarms of blocks that use them would only follow from it.
+    undefined: Vec<String>,
     findings: Vec<CheckFinding>,
+}
+
+/// The words of a block that can be names, in capital letters.
+fn names(text: &str, comment: char) -> impl Iterator<Item = String> {
+    let words = text.split(comment).next().unwrap_or_default().split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+    words.filter(|word| word.starts_with(|c: char| !c.is_ascii_digit())).map(str::to_uppercase)
 }
 
 impl Checker<'_> {
@@ -131,9 +141,13 @@ impl Checker<'_> {
         let block = match result {
             Ok(block) => block,
             Err(fault) => {
-                self.known.is_incomplete |= ["DEF", "PROC"].contains(&word(text, head.rest).to_uppercase().as_str());
+                let defines = ["DEF", "PROC"].contains(&word(text, head.rest).to_uppercase().as_str());
+                self.known.is_incomplete |= defines;
                 self.last = Last::Unknown;
                 self.raise(fault, &head, line, text);
+                if defines {
+                    self.undefined.extend(names(&text[head.rest..], self.dialect.comment).filter(|name| !is_keyword(name)));
+                }
                 return;
             }
         };
@@ -153,6 +167,9 @@ impl Checker<'_> {
     }
 
     fn raise(&mut self, fault: Fault, head: &Head<'_>, line: u32, text: &str) {
+        if names(&text[head.rest..], self.dialect.comment).any(|name| self.undefined.contains(&name)) {
+            return;
+        }
         let alarm = fault.alarm(&self.program.path(), &head.name(line), line, text);
         self.findings.push(CheckFinding::Alarm(alarm));
     }

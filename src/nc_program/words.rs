@@ -85,7 +85,7 @@ impl Parser<'_> {
             Some(axis) => Ok(Item::Word(word(Address::Axis(axis), None, None, value, at))),
             None if matches!(numbered.letter, 'R' | 'N' | 'L') => {
                 let reason = match numbered.letter {
-                    'R' => "`=` and a value must follow an R parameter",
+                    'R' => "`=` and a value must follow an R parameter; the radius of a circle is `CR=`",
                     'N' => "a block number is at the beginning of the block",
                     _ => "a call is alone in its block",
                 };

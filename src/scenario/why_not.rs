@@ -126,7 +126,7 @@ impl Tree<'_> {
     fn first(&mut self, fact: &Tested, depth: usize) {
         for part in &fact.parts {
             if part.holds && !fact.holds {
-                self.line(depth, true, "all conditions of the next step hold: it follows within some cycles");
+                self.line(depth, true, "no known condition of the next step is open: it follows within some cycles, or waits for something not listed");
             }
             self.node(part, depth);
         }

@@ -182,6 +182,7 @@ impl MachineData {
             axis_is_gray: self.general.ovr_ax_is_gray_code,
             feed_is_gray: self.general.ovr_feed_is_gray_code,
             rapid_traverse_is_gray: self.general.ovr_rapid_is_gray_code,
+            spindle_is_gray: self.general.ovr_spind_is_gray_code,
         }
     }
 }

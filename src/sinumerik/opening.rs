@@ -46,7 +46,7 @@ const ACTS_OTHERWISE: &[(u32, &str, &str)] = &[
 ];
 
 /// Data of the catalogue that have no effect in the model and no effect on the interface.
-const WITHOUT_EFFECT: &[u32] = &[10200, 10210, 32060, 32070, 32402, 32650, 34220, 34232, 34800, 36042, 36520, 41100];
+const WITHOUT_EFFECT: &[u32] = &[10200, 10210, 32070, 32402, 32650, 34220, 34232, 34800, 36042, 36520, 41100];
 
 /// Data beside the catalogue with which a control shows a PLC program something that is not modelled, their default, and what to do.
 const SEEN_BY_THE_PLC: &[(u32, f64, &str, &str)] = &[

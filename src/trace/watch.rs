@@ -228,7 +228,11 @@ fn channel_values(entry: &str, names: &Names, variables: &Variables) -> Result<V
         _ => return Ok(Vec::new()),
     };
     let channels = names.channels.iter().filter(|(_, name)| name.as_deref().is_some_and(|name| matches(head, name)));
-    Ok(channels.map(|(channel, _)| value(channel)).collect())
+    // The names of all channels are known; those that the machine has also have R parameters, unless MD28050 is 0 in all of them.
+    let has_parameters = |channel: &ChannelNumber| variables.r_parameters.count(*channel) > 0;
+    let (existing, others): (Vec<_>, Vec<_>) = channels.map(|(channel, _)| channel).partition(has_parameters);
+    let found = if existing.is_empty() { others } else { existing };
+    Ok(found.into_iter().map(value).collect())
 }
 
 fn axes(names: &Names) -> impl Iterator<Item = (AxisNumber, &str)> {

@@ -374,6 +374,33 @@ fn why_not_names_that_a_spindle_starts_no_reference_point_approach() {
 }
 
 #[test]
+fn why_not_names_what_holds_a_program() {
+    let directory = directory("why_not_program");
+    let write = |signals: &str| {
+        let scenario = format!(
+            "title = \"A\"\nmachine = \"portal\"\nplc = \"enable_all\"\nnc = \"N10 G1 X50 F1000\\nN20 M6\\nN30 M30\"\n\
+            [[step]]\nwait = \"X.position_controller_active\"\nwithin = \"1s\"\n\
+            [[step]]\nset = {{ \"DB11.DBX0.0\" = 1, {signals} }}\n[[step]]\nrun = \"20ms\"\n\
+            [[step]]\npulse = \"CHAN1.nc_start\"\n[[step]]\nrun = \"500ms\"\n"
+        );
+        fs::write(directory.join("s.toml"), scenario).unwrap();
+    };
+    let asked = |signal: &str, wanted: &str| {
+        let output = opennck(&["why-not", "s.toml", signal], &directory);
+        let text = out(&output);
+        assert!(text.contains(wanted) && !text.contains("it follows"), "{signal}: {text}");
+    };
+    write("\"CHAN1.feed_override\" = \"0%\", \"CHAN1.feed_override_active\" = 1");
+    asked("X.axis_stationary", "effective override of the path of CHAN1 (feed_override): 0 %, wanted above 0 %");
+    write("\"X2.feed_stop\" = 1");
+    asked("X.axis_stationary", "X2.feed_stop (DB34.DBX4.3) = 1, wanted 0");
+    write("\"CHAN1.read_in_disable\" = 1");
+    for signal in ["X.traverse_command_plus", "X.axis_stationary", "CHAN1.decoded_m_function_6", "CHAN1.m2_m30_active"] {
+        asked(signal, "CHAN1.read_in_disable (DB21.DBX6.1) = 1, wanted 0");
+    }
+}
+
+#[test]
 fn machine_data_are_checked_with_file_line_and_identifier() {
     let directory = directory("machine_data");
     fs::write(directory.join("m.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=99\nM17\n").unwrap();

@@ -88,14 +88,15 @@ fn set(plc: &mut PlcImage, db: u16, byte: u32, bit: u8, value: bool) {
     *byte = *byte & !(1 << bit) | u8::from(value) << bit;
 }
 
-/// The behaviour of the built-in program `gantry_start`, by addresses.
+/// The behaviour of the built-in program `gantry_start` while REF is active from the beginning, by addresses.
 fn start_gantry(plc: &mut PlcImage) -> bool {
+    let is_ref = plc.offset(Area::DataBlock(11), 7).is_some_and(|offset| plc.image()[offset] & 0x04 != 0);
     for db in 31..=33 {
         set(plc, db, 1, 5, true);
         set(plc, db, 2, 1, true);
         set(plc, db, 21, 7, true);
         let ready = plc.offset(Area::DataBlock(db), 101).is_some_and(|offset| plc.image()[offset] & 0x10 != 0);
-        set(plc, db, 29, 4, ready);
+        set(plc, db, 29, 4, ready && is_ref);
     }
     true
 }

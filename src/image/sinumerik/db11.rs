@@ -30,9 +30,9 @@ signals! {
     bool, machine_function_repos, set_machine_function_repos: 1, 1;
     /// Machine function REF: 1 requests reference point approach, in JOG.
     bool, machine_function_ref, set_machine_function_ref: 1, 2;
-    /// Single block type B: 1 = stop after each block that moves an axis.
+    /// Single block type B: 1 = single block also stops after blocks that only calculate.
     bool, single_block_type_b, set_single_block_type_b: 1, 6;
-    /// Single block type A: 1 = all channels stop when one of them has completed a single block.
+    /// Single block type A: 1 = single block stops after blocks that move, output or dwell, as without type B.
     bool, single_block_type_a, set_single_block_type_a: 1, 7;
     /// Machine function INC1: 1 requests it; effective only with DB10.DBX57.0 = 1, like the next six signals.
     bool, machine_function_increment_1, set_machine_function_increment_1: 2, 0;

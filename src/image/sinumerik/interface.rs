@@ -45,6 +45,7 @@ pub static SINUMERIK: Interface = Interface::new(Tables {
         (axis_to_nck::feed_override, Override::Axis),
         (channel_to_nck::feed_override, Override::Feed),
         (channel_to_nck::rapid_traverse_override, Override::RapidTraverse),
+        (axis_to_nck::spindle_override, Override::Spindle),
     ],
     switches: Some(SwitchSignals {
         cam: axis_to_nck::deceleration_reference_point_approach,

@@ -156,4 +156,11 @@ fn an_override_is_a_position_in_gray_code_or_per_cent_in_binary() {
         Preset::parse("[interface]\n\"X.feed_override\" = \"55%\"\n\"CHAN1.feed_override\" = \"100%\"", "p").unwrap();
     let memory = Memory::from_preset(&preset, &names(), binary).unwrap();
     assert_eq!((raw(&memory, "DB31.DBB0"), raw(&memory, "DB21.DBB4")), (55, 0b11010));
+    // MD12070 begins with 50 %; code 0 stays at power on (S-04).
+    assert_eq!(raw(&memory, "DB31.DBB19"), 0);
+    for (text, code) in [("50%", 0b0001), ("100%", 0b1110), ("120%", 0b1000)] {
+        let preset = format!("[interface]\n\"X.spindle_override\" = \"{text}\"");
+        let memory = Memory::from_preset(&Preset::parse(&preset, "p").unwrap(), &names(), binary).unwrap();
+        assert_eq!(raw(&memory, "DB31.DBB19"), code, "{text}");
+    }
 }

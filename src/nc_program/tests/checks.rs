@@ -77,6 +77,8 @@ fn what_depends_on_the_way_is_not_judged_behind_a_label() {
 #[test]
 fn a_wrong_definition_causes_no_other_errors() {
     assert_eq!(findings("DEF INT AB CD\nAB=CD\nM30").len(), 1);
+    assert_eq!(findings("DEF INT A B\nN10 A=1\nM30").len(), 1);
+    assert_eq!(findings("DEF REAL 1A\nR1=5 X\nM30").len(), 2, "another block");
 }
 
 #[test]

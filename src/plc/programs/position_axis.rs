@@ -3,9 +3,9 @@
 //! | flag | meaning |
 //! |---|---|
 //! | M120.0, M120.1 | Start, Stop |
-//! | MB121, MB122 | Funct (5: mm), Mode (0: absolute, 1: incremental) |
+//! | MB121, MB122 | Funct (5: mm), Mode (0: absolute, 1: incremental, 2: shortest way, 3: in plus, 4: in minus direction) |
 //! | MW124 | AxisNo, 1 to 31 |
-//! | MD126, MD130 | Pos and FRate, as REAL; FRate of 0 or less: MD32060 |
+//! | MD126, MD130 | Pos and FRate, as REAL, of a rotary axis degrees and rev/min; FRate of 0 or less: MD32060 |
 //! | M134.0, M134.1 | InPos, Error |
 //! | MB135 | State |
 //!

@@ -3,7 +3,7 @@
 //! An axis that is not where the path is (it was moved in JOG, or braked alone because it lost its enables) first comes back: all axes go on a
 //! straight line to where the path was left (REPOS).
 
-use crate::image::{ToNck, axis_to_nck, channel_to_nck};
+use crate::image::{Signal, ToNck, axis_to_nck, channel_to_nck};
 use crate::motion::path::{Feed, Overrides, Path, PathBlock, PerPathAxis, Way};
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, channel_number};
@@ -96,6 +96,39 @@ impl State {
     /// The unit that an axis leads.
     pub(in crate::sinumerik) fn unit_of(&self, axis: AxisNumber) -> Option<Unit> {
         self.units.iter().find(|unit| unit.leader() == axis).copied()
+    }
+
+    /// What holds the path of a program that is not stopped, with its rule. For an explanation.
+    pub(in crate::sinumerik) fn path_is_held(&self, run: &Run, stage: &Stage<'_>) -> Option<(Rule, Input)> {
+        match self.holder(run, stage) {
+            Held::By(rule, input) => Some((rule, input)),
+            Held::No | Held::Stopped => None,
+        }
+    }
+
+    /// The override that acts on the block of the path, with its factor. For an explanation.
+    pub(in crate::sinumerik) fn path_override(&self, run: &Run, stage: &Stage<'_>) -> Option<(Signal, f64)> {
+        if run.deleting || run.change.is_some() {
+            return None;
+        }
+        let (block, _) = run.returning.as_ref().unwrap_or(&run.path).current()?;
+        let overrides = self.overrides(run, Held::No, stage);
+        Some(match block.feed {
+            Feed::Rapid => (channel_to_nck::rapid_traverse_override, overrides.rapid),
+            Feed::Programmed(_) => (channel_to_nck::feed_override, overrides.feed),
+        })
+    }
+
+    /// The override of an axis on its own way: of rapid traverse, or its own.
+    pub(in crate::sinumerik) fn override_of_positioning(positioning: &Positioning, stage: &Stage<'_>) -> f64 {
+        if positioning.is_rapid {
+            let signals = &stage.to_nck.channels[stage.channel];
+            let (code, is_active) = (signals.rapid_traverse_override(), signals.rapid_traverse_override_active());
+            stage.parameters.path_overrides.rapid(code, is_active)
+        } else {
+            let signals = &stage.to_nck.axes[positioning.axis];
+            stage.parameters.axis_override(signals.feed_override(), signals.override_active())
+        }
     }
 
     fn overrides(&self, run: &Run, held: Held, stage: &Stage<'_>) -> Overrides {
@@ -286,8 +319,8 @@ impl State {
 
     fn step_positionings(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) {
         let mut index = 0;
-        while let Some(&Positioning { axis, target, velocity, is_rapid, handwheel, .. }) = run.positionings.get(index) {
-            let signals = &stage.to_nck.axes[axis];
+        while let Some(&positioning) = run.positionings.get(index) {
+            let Positioning { axis, target, velocity, is_rapid, handwheel, .. } = positioning;
             let state = &self.axes[axis];
             let unit = self.unit_of(axis);
             let arrived = state.setpoint.position == target && state.setpoint.is_at_rest();
@@ -300,13 +333,7 @@ impl State {
             }
             index += 1;
             let of_channel = &stage.to_nck.channels[stage.channel];
-            let factor = if is_rapid {
-                let (code, is_active) =
-                    (of_channel.rapid_traverse_override(), of_channel.rapid_traverse_override_active());
-                stage.parameters.path_overrides.rapid(code, is_active)
-            } else {
-                stage.parameters.axis_override(signals.feed_override(), signals.override_active())
-            };
+            let factor = Self::override_of_positioning(&positioning, stage);
             let on = |unit: &Unit| unit.members().all(|member| self.axes[member].enabling.is_on());
             let stopper = |unit: &Unit| unit.members().find(|member| stage.to_nck.axes[*member].feed_stop());
             let feed_disable = self.feed_disable(stage.channel, stage.to_nck);

@@ -7,6 +7,7 @@ use crate::sinumerik::alarms::Alarm;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::inputs::required;
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::state::{State, Unit};
 use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
@@ -142,6 +143,12 @@ impl<'a> Look<'a> {
             .find(|unit| unit.set.contains(axis))
             .copied()
             .unwrap_or_else(|| Unit::single(axis, &self.state.owners, self.parameters))
+    }
+
+    /// What the stage of programs reads of a channel; `None` without programs.
+    pub(super) fn stage(self, channel: ChannelNumber) -> Option<Stage<'a>> {
+        let own = self.parameters.programs[channel].as_deref()?;
+        Some(Stage { channel, parameters: self.parameters, own, to_nck: self.to_nck })
     }
 
     /// The grouping of a gantry axis.

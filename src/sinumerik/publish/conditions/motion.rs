@@ -10,12 +10,14 @@ use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::jog::state::{By, Movement};
+use crate::sinumerik::program::path::Stage;
+use crate::sinumerik::program::state::{ProgramState, Run};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
 use crate::sinumerik::single_axis::state::OrderedBy;
-use crate::sinumerik::state::Unit;
+use crate::sinumerik::state::{State, Unit};
 use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::Place;
+use crate::variables::{Input, Place};
 
 /// The signals.
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
@@ -40,6 +42,11 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         |look, axis| look.traverse(axis, 1, true, false),
     ),
 ];
+
+/// A factor in per cent.
+fn percent(factor: f64) -> String {
+    format!("{} %", (factor * 1e6).round() / 1e4)
+}
 
 /// A direction in words.
 pub(super) const fn sign(direction: i8) -> &'static str {
@@ -246,7 +253,7 @@ impl Look<'_> {
         } else if self.state.is_jogging(&unit) {
             all.push(self.jog(&unit, direction, command));
         } else if self.state.programs[unit.channel].run.is_some() {
-            all.push(self.moved_by_program(number, direction));
+            all.push(self.moved_by_program(unit.channel, number, direction));
         } else {
             let by_key = self.referencing_by_key(&unit, direction);
             all.push(Condition::Any(std::iter::once(by_key).chain(self.start_of_section_3(number)).collect()));
@@ -371,8 +378,41 @@ impl Look<'_> {
     pub(super) fn not_held(self, unit: &Unit) -> Condition {
         let mut all = vec![self.not_disabled(unit.channel, channel_to_nck::feed_disable, UserReaction::Feed)];
         all.extend(unit.members().map(|axis| self.axis(axis, axis_to_nck::feed_stop, false)));
-        all.push(self.override_acts(unit.leader()));
+        match self.not_held_by_program(unit) {
+            Some(by_program) => all.extend(by_program),
+            None => all.push(self.override_acts(unit.leader())),
+        }
         Condition::All(all)
+    }
+
+    /// What else must hold so that a running program moves a unit. `None` if no program moves it: its axial override counts then.
+    fn not_held_by_program(self, unit: &Unit) -> Option<Vec<Condition>> {
+        let leader = unit.leader();
+        let program = &self.state.programs[unit.channel];
+        let (run, stage) = (program.run.as_deref()?, self.stage(unit.channel)?);
+        let runs = matches!(program.state, ProgramState::Running | ProgramState::Waiting);
+        let otherwise = self.state.axes[leader].approach.is_running() || run.referencing.contains(leader);
+        if !runs || otherwise || !self.state.owners.is_program_axis(leader, unit.channel) {
+            return None;
+        }
+        if let Some(positioning) = run.positionings.iter().find(|one| one.axis == leader) {
+            return Some(vec![self.override_of(leader, State::override_of_positioning(positioning, &stage))]);
+        }
+        stage.own.axes.path.contains(&leader).then(|| self.path_not_held(run, &stage))
+    }
+
+    /// Neither a signal nor an override of 0 % holds the path of a channel.
+    pub(super) fn path_not_held(self, run: &Run, stage: &Stage<'_>) -> Vec<Condition> {
+        let name = self.channel_name(stage.channel);
+        let mut all = Vec::new();
+        if let Some((_, Input::Bit(bit, value))) = self.state.path_is_held(run, stage) {
+            all.push(Condition::Signal(bit, !value));
+        }
+        if let Some((signal, factor)) = self.state.path_override(run, stage) {
+            let what = format!("effective override of the path of {name} ({})", signal.name);
+            all.push(Fact::new(what, percent(factor), "above 0 %", factor > 0.0).into());
+        }
+        all
     }
 
     /// An override of 0 holds only while it is active.
@@ -383,8 +423,7 @@ impl Look<'_> {
     /// An override that is not 0.
     pub(super) fn override_of(self, axis: AxisNumber, factor: f64) -> Condition {
         let what = format!("effective override of {}", self.axis_name(axis));
-        let percent = format!("{} %", (factor * 1e6).round() / 1e4);
-        Fact::new(what, percent, "above 0 %", factor > 0.0).into()
+        Fact::new(what, percent(factor), "above 0 %", factor > 0.0).into()
     }
 
     /// Nothing forbids a movement of a unit, and each of its axes is in position control.

@@ -7,7 +7,7 @@ use crate::image::{
 };
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::program::search_state::Search;
-use crate::sinumerik::program::state::ProgramState;
+use crate::sinumerik::program::state::{Phase, ProgramState, WaitFor};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
 use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
@@ -60,7 +60,7 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
     }),
     Row::new(channel_from_nck::m2_m30_active, |look, channel| {
         let what = format!("a program of {} has ended, and none has started since", look.channel_name(channel));
-        fact(what, look.state.programs[channel].ended).into()
+        fact(what, look.state.programs[channel].ended).after(|| look.reaches(channel, "M2 or M30"))
     }),
     Row::new(channel_from_nck::program_state_running, |look, owner| look.program(owner, ProgramState::Running)),
     Row::new(channel_from_nck::program_state_wait, |look, owner| look.program(owner, ProgramState::Waiting)),
@@ -91,6 +91,16 @@ const fn word(state: ProgramState) -> &'static str {
         ProgramState::Waiting => "waiting",
         ProgramState::Stopped => "stopped",
         ProgramState::Interrupted => "interrupted",
+    }
+}
+
+/// What the block of a program does, in words.
+const fn phase(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Between => "has not begun",
+        Phase::Before => "waits before its motion",
+        Phase::Moving => "runs",
+        Phase::After => "waits after its motion",
     }
 }
 
@@ -146,7 +156,53 @@ impl Look<'_> {
         let what = format!("auxiliary functions of {} set this bit", self.channel_name(channel));
         let found = if is_set { "yes" } else { "no" };
         let wanted = if question.wanted { "yes" } else { "no" };
-        Some(Fact::new(what, found, wanted, is_set == question.wanted).into())
+        let shown = Fact::new(what, found, wanted, is_set == question.wanted);
+        Some(if question.wanted { shown.after(|| self.reaches(channel, "a block that outputs it")) } else { shown.into() })
+    }
+
+    /// What a program waits for before it reaches a later block. Whether that block comes is not known.
+    fn reaches(self, channel: ChannelNumber, wanted: &str) -> Condition {
+        let program = &self.state.programs[channel];
+        let name = self.channel_name(channel);
+        let Some((run, stage)) = program.run.as_deref().zip(self.stage(channel)) else {
+            return self.program(channel, ProgramState::Running);
+        };
+        let nothing_held = |what: &str, found: &str| Fact::new(format!("{what} of {name}"), found, "none", false).into();
+        let mut all = Vec::new();
+        match program.state {
+            ProgramState::Running => {}
+            ProgramState::Waiting => {
+                let text = match run.waits {
+                    Some(WaitFor::Mark { mark, .. }) => format!("for mark {mark} in other channels"),
+                    Some(WaitFor::End(_)) => "for the end of programs of other channels".to_owned(),
+                    None => "for an axis that it does not have".to_owned(),
+                };
+                all.push(nothing_held("wait", &text));
+            }
+            ProgramState::Stopped | ProgramState::Interrupted | ProgramState::Aborted => {
+                all.push(self.program(channel, ProgramState::Running));
+            }
+        }
+        all.push(self.not_disabled(channel, channel_to_nck::read_in_disable, UserReaction::ReadIn));
+        if run.read_in_disabled {
+            all.push(nothing_held("RDISABLE of a synchronised action", "active"));
+        }
+        if program.output.is_busy() {
+            all.push(nothing_held("auxiliary functions that the PLC has not acknowledged", "one or more"));
+        }
+        if run.dwell > 0 {
+            all.push(nothing_held("dwell time (G4)", "runs"));
+        }
+        all.extend(self.no_spindle_awaited(channel));
+        if run.phase == Phase::Moving {
+            all.extend(self.path_not_held(run, &stage));
+        }
+        let block = match run.queue.front() {
+            Some(block) => format!("{}, {}", block.origin.name.as_str(), phase(run.phase)),
+            None => "none".to_owned(),
+        };
+        all.push(Fact::new(format!("next block of {name}"), block, wanted, false).into());
+        Condition::All(all)
     }
 
     /// A program test is selected and deselected while no program runs and the axes of the channel rest.
@@ -165,7 +221,7 @@ impl Look<'_> {
     }
 
     /// A block of a program moves the axis in a direction.
-    pub(super) fn moved_by_program(self, axis: AxisNumber, direction: i8) -> Condition {
+    pub(super) fn moved_by_program(self, channel: ChannelNumber, axis: AxisNumber, direction: i8) -> Condition {
         let goes = self.state.axes[axis].travel.request();
         let words = |direction: i8| match direction {
             1 => "plus",
@@ -173,6 +229,7 @@ impl Look<'_> {
             _ => "none",
         };
         let what = format!("direction in which the program moves {}", self.axis_name(axis));
-        Fact::new(what, words(goes), words(direction), goes == direction).into()
+        Fact::new(what, words(goes), words(direction), goes == direction)
+            .after(|| self.reaches(channel, "one that moves the axis in this direction"))
     }
 }

@@ -5,7 +5,6 @@ use crate::image::{axis_from_nck, axis_to_nck};
 use crate::sinumerik::jog::keys::key_signal;
 use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::parameters::spindle::{REVOLUTION_PER_MINUTE, SpindleParameters};
-use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
 use crate::sinumerik::publish::conditions::motion::sign;
 use crate::sinumerik::rules::Rule;
@@ -240,8 +239,7 @@ impl<'a> Look<'a> {
     /// What the path of a channel waits for: the spindles, at the beginning of a block (MD35500, gear change) and with G95.
     pub(super) fn no_spindle_awaited(self, channel: ChannelNumber) -> Vec<Condition> {
         let run = self.state.programs[channel].run.as_deref();
-        let (Some(run), Some(own)) = (run, self.parameters.programs[channel].as_deref()) else { return Vec::new() };
-        let stage = Stage { channel, parameters: self.parameters, own, to_nck: self.to_nck };
+        let (Some(run), Some(stage)) = (run, self.stage(channel)) else { return Vec::new() };
         let awaited = if run.awaits_spindles { self.state.awaited_spindle(&stage) } else { None };
         let Some((rule, _)) = awaited.or_else(|| self.state.spindle_stands(run, &stage)) else { return Vec::new() };
         let found = match rule {
@@ -251,7 +249,7 @@ impl<'a> Look<'a> {
         };
         let what = format!("what the path of {} waits for", self.channel_name(channel));
         let mut all: Vec<Condition> = vec![Fact::new(what, found, "nothing", false).into()];
-        for axis in own.spindles.iter().map(|(_, axis)| *axis) {
+        for axis in stage.own.spindles.iter().map(|(_, axis)| *axis) {
             if let Some((data, spindle)) = self.spindle(axis).filter(|(_, spindle)| spindle.is_programmed()) {
                 all.push(self.axis(axis, axis_from_nck::change_gear_stage, false));
                 all.push(self.at_its_speed(axis, data, spindle));
