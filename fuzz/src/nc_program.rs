@@ -108,6 +108,7 @@ fn run(program: &Program, mut channel: Channel) -> usize {
         match result {
             Ok(Prepared::Block(_)) => blocks += 1,
             Ok(Prepared::Calculated(_)) => {}
+            Ok(Prepared::Before(_)) => panic!("no search runs"),
             Ok(Prepared::Waits(_)) => panic!("everything has been executed"),
             Ok(Prepared::Ended) => break,
             Err(alarm) => {

@@ -64,7 +64,9 @@ impl Interpreter {
         for _ in 1..CALCULATIONS {
             match self.step(environment)? {
                 Prepared::Calculated(_) => {}
-                prepared @ (Prepared::Block(_) | Prepared::Waits(_) | Prepared::Ended) => return Ok(prepared),
+                prepared @ (Prepared::Block(_) | Prepared::Before(_) | Prepared::Waits(_) | Prepared::Ended) => {
+                    return Ok(prepared);
+                }
             }
         }
         self.step(environment)
@@ -88,6 +90,9 @@ impl Interpreter {
             let line = level.line;
             let Some((head, text)) = program.head(line) else { return self.end_of_text(&program) };
             if text[head.rest..].starts_with(dialect.comment) || text[head.rest..].trim().is_empty() {
+                if self.stops_before(&head) {
+                    return Ok(Prepared::Before(self.origin(&program, &head, line, text)));
+                }
                 self.go_to_next(line);
                 continue;
             }
@@ -104,6 +109,9 @@ impl Interpreter {
             }
             self.is_stopped = false;
             if is_definition(text, head.rest) {
+                if self.stops_before(&head) {
+                    return Ok(Prepared::Before(origin));
+                }
                 if let Some(level) = self.levels.last_mut() {
                     define(&mut level.macros, text, head.rest, level.has_begun, dialect).map_err(alarm)?;
                     (level.line, level.is_at_start) = (line.saturating_add(1), false);
@@ -115,6 +123,9 @@ impl Interpreter {
             let text = replaced.as_deref().unwrap_or(text);
             let alarm = |fault: Fault| fault.alarm(&origin.program, &origin.name, line, text);
             let block = parse(text, dialect, &axes).map_err(alarm)?;
+            if is_calculation(&block.statement) && self.stops_before(&head) {
+                return Ok(Prepared::Before(origin));
+            }
             if waits(&block.statement) && !environment.is_executed() {
                 return Ok(Prepared::Waits(origin));
             }
@@ -127,6 +138,15 @@ impl Interpreter {
         }
         let Some(level) = self.levels.last() else { return Ok(Prepared::Ended) };
         Ok(Prepared::Calculated(self.origin(&program, &Head::default(), level.line, "")))
+    }
+
+    /// Whether preparation stops before this line; it does so once.
+    fn stops_before(&mut self, head: &Head<'_>) -> bool {
+        let is_target = self.levels.len() == 1 && self.target.as_ref().is_some_and(|target| target.is_head(head));
+        if is_target {
+            self.target = None;
+        }
+        is_target
     }
 
     fn go_to_next(&mut self, line: u32) {
@@ -286,14 +306,7 @@ impl Interpreter {
             Some(End::Subprogram) => self.return_to_caller(),
             None => self.levels.extend(replacement),
         }
-        let is_calculation = matches!(
-            words,
-            [Word::Command {
-                command: Command::StopPreparation | Command::SingleBlockOff | Command::SingleBlockOn,
-                ..
-            }]
-        );
-        if is_calculation {
+        if only_controls(words) {
             return Ok(Prepared::Calculated(origin));
         }
         let block = Block {
@@ -400,6 +413,18 @@ impl Interpreter {
         }
         Ok(variable)
     }
+}
+
+/// Whether the words of a block only control preparation and single block.
+fn only_controls(words: &[Word]) -> bool {
+    let controls =
+        |command| matches!(command, Command::StopPreparation | Command::SingleBlockOff | Command::SingleBlockOn);
+    matches!(words, [Word::Command { command, .. }] if controls(*command))
+}
+
+/// Whether a block is never executed by the channel.
+fn is_calculation(statement: &Statement) -> bool {
+    !matches!(statement, Statement::Words(words) if !only_controls(words))
 }
 
 /// Why a name cannot be a new variable.

@@ -10,6 +10,7 @@
 //! |---|---|
 //! | [`Prepared::Block`] | executes it: [`Block`] has modal G functions, feedrate, offset, axis words, circle, auxiliary functions and [`Action`]s with their values |
 //! | [`Prepared::Calculated`] | nothing; single block type 2 stops after it ([`Interpreter::step`] returns every such block, `next` only some) |
+//! | [`Prepared::Before`] | stands before this block, as a search wants |
 //! | [`Prepared::Waits`] | calls again when everything before has been executed ([`Environment::is_executed`]) |
 //! | [`Prepared::Ended`] | there are no more blocks: M30, M2 or M17 of the main program was in the last one |
 //! | a [`ProgramAlarm`] | raises it with its channel as %1. With [`Class::CorrectionBlock`] the next call reads the block again; with [`Class::InterpreterStop`] only RESET helps: a new interpreter |

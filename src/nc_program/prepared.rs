@@ -17,6 +17,8 @@ pub enum Prepared {
     Block(Box<Block>),
     /// A block that only calculated, jumped or called. Single block type 2 stops after it.
     Calculated(Origin),
+    /// The next block is that of [`stop_before`](super::Interpreter::stop_before), and only calculates, jumps or calls. Nothing of it was done.
+    Before(Origin),
     /// The next block needs that everything before has been executed. Nothing has changed; call again when it has.
     Waits(Origin),
     /// The program has ended: there are no more blocks.

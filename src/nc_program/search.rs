@@ -123,7 +123,7 @@ pub(super) fn left_by_jump(program: &Program, from: u32, to: u32, dialect: &Dial
 }
 
 /// What a jump looks for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Wanted {
     Label(String),
     Number { is_main: bool, digits: String },
@@ -176,7 +176,7 @@ pub(super) fn target(program: &Program, wanted: &Wanted, from: u32, direction: D
 }
 
 /// A block that a search of the operator looks for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BlockTarget(Wanted);
 
 impl BlockTarget {
@@ -199,7 +199,12 @@ impl BlockTarget {
     /// Whether this line is the block.
     #[must_use]
     pub fn is(&self, line: &str) -> bool {
-        self.0.is_head(&head(line))
+        self.is_head(&head(line))
+    }
+
+    /// Whether a line with this head is the block.
+    pub(super) fn is_head(&self, head: &Head<'_>) -> bool {
+        self.0.is_head(head)
     }
 
     /// The line of the block in a program.

@@ -24,6 +24,8 @@ pub struct Interpreter {
     pub(super) is_unseparated: bool,
     /// The end of the text is the end of the program: blocks of MDA need no M30.
     pub(super) ends_with_text: bool,
+    /// The block of the main program before which preparation stops, if it only calculates.
+    pub(super) target: Option<BlockTarget>,
 }
 
 /// A program level.
@@ -123,6 +125,7 @@ impl Interpreter {
             is_stopped: false,
             is_unseparated: false,
             ends_with_text,
+            target: None,
         }
     }
 
@@ -142,6 +145,12 @@ impl Interpreter {
     #[must_use]
     pub fn offset(&self) -> &[(AxisIndex, f64)] {
         &self.offset
+    }
+
+    /// Stops once before a block of the main program that only calculates, jumps or calls:
+    /// [`step`](Self::step) returns [`Prepared::Before`](super::Prepared::Before) instead of executing it.
+    pub fn stop_before(&mut self, target: BlockTarget) {
+        self.target = Some(target);
     }
 
     /// Whether the program has ended.

@@ -130,7 +130,7 @@ rules! {
     SearchActed "search" "action blocks are output: the PLC has to complete its action";
     SearchActions "search" "action blocks output what the search has collected";
     SearchReady "10208" "the search is over: NC start goes on";
-    ApproachEnds "search" "the axes are where the block begins";
+    ApproachEnds "search" "the axes are where the program goes on";
     BlockBegins "block" "begins";
     BlockMoves "block" "moves the axis";
     BlockMotionEnds "block" "motion of the axis has ended";

@@ -24,7 +24,7 @@ fn survive(bytes: &[u8]) {
         for _ in 0..50 {
             match interpreter.next(&mut channel) {
                 Ok(Prepared::Ended) | Err(_) => break,
-                Ok(Prepared::Block(_) | Prepared::Calculated(_) | Prepared::Waits(_)) => {}
+                Ok(Prepared::Block(_) | Prepared::Calculated(_) | Prepared::Before(_) | Prepared::Waits(_)) => {}
             }
         }
         let findings = check(&program, &Library::default(), &AxisNames::usual(), &SINUMERIK);
@@ -91,7 +91,7 @@ proptest! {
             match interpreter.next(&mut running) {
                 Ok(Prepared::Ended) => break,
                 Err(alarm) => { found = Some(alarm.number); break; }
-                Ok(Prepared::Block(_) | Prepared::Calculated(_) | Prepared::Waits(_)) => {}
+                Ok(Prepared::Block(_) | Prepared::Calculated(_) | Prepared::Before(_) | Prepared::Waits(_)) => {}
             }
         }
         let by_value = [12160, 12430, 12560, 12400, 14010, 14013, 14020, 14025, 14048, 14051, 14080, 14092, 12550, 12410,

@@ -232,3 +232,31 @@ fn an_endless_calculation_returns_to_the_channel() {
     assert!(matches!(super::interpreter().next(&mut channel), Ok(Prepared::Calculated(_))));
     assert_eq!(run("G0 X1\nM30").len(), 2);
 }
+
+/// nc_programs.md 3.5: a search finds a block of the main program that only calculates, jumps or calls, before it does so. N20 of the
+/// subprogram is another block; a block that is executed is found by the channel.
+#[test]
+fn preparation_stops_once_before_a_block_that_calculates() {
+    let text = "N10 R1=R1+1\nN20 SUB\nN30 IF R1<3 GOTOB N10\nN40 STOPRE\nN50 ; nothing\nN60 G0 X1\nM30";
+    for (target, r) in [("N10", 0.0), ("N20", 1.0), ("N30", 11.0), ("N40", 11.0), ("N50", 11.0)] {
+        let mut channel = Channel::new().with("PART.MPF", text).with("SUB.SPF", "N20 R1=R1+10\nM17");
+        let mut interpreter = interpreter();
+        interpreter.stop_before(crate::nc_program::BlockTarget::new(target).unwrap());
+        let mut found = 0;
+        loop {
+            match interpreter.next(&mut channel).unwrap() {
+                Prepared::Before(origin) => {
+                    assert_eq!((origin.name.as_str(), channel.r[1]), (target, r));
+                    found += 1;
+                }
+                Prepared::Ended => break,
+                Prepared::Block(_) | Prepared::Calculated(_) | Prepared::Waits(_) => {}
+            }
+        }
+        assert_eq!(found, 1, "{target}");
+    }
+    let mut channel = Channel::new().with("PART.MPF", text).with("SUB.SPF", "M17");
+    let mut interpreter = interpreter();
+    interpreter.stop_before(crate::nc_program::BlockTarget::new("N60").unwrap());
+    while !matches!(interpreter.next(&mut channel).unwrap(), Prepared::Block(_)) {}
+}

@@ -154,7 +154,7 @@ pub(super) fn run_in(channel: &mut Channel) -> (Vec<Block>, Option<ProgramAlarm>
     for _ in 0..10_000 {
         match interpreter.next(channel) {
             Ok(Prepared::Block(block)) => blocks.push(*block),
-            Ok(Prepared::Calculated(_) | Prepared::Waits(_)) => {}
+            Ok(Prepared::Calculated(_) | Prepared::Before(_) | Prepared::Waits(_)) => {}
             Ok(Prepared::Ended) => return (blocks, None),
             Err(alarm) => return (blocks, Some(alarm)),
         }

@@ -15,6 +15,8 @@ ChannelSetting {
     42120 APPROACH_FEED approach_feed: f64 = 0.0; "mm/min", Range::NOT_NEGATIVE, Immediate;
     /// single block type 2 stops preparation at each block
     42200 SINGLEBLOCK2_STOPRE singleblock2_stopre: bool = false; "", Range::ANY, Immediate;
+    /// an incremental movement also traverses a change of offsets: after TRANS X10, G91 X1 moves 11
+    42440 FRAME_OFFSET_INCR_PROG frame_offset_incr_prog: bool = true; "", Range::ANY, Immediate;
 }
 scope ChannelSetting
 }

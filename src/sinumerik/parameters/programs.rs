@@ -176,6 +176,8 @@ pub(in crate::sinumerik) struct ProgramParameters {
     pub jerk_window: usize,
     /// SD42120 in mm/min.
     pub approach_feed: f64,
+    /// SD42440.
+    pub increments_traverse_offsets: bool,
     /// MD22510.
     pub shown_groups: [u8; 8],
     /// MD22515 bit 0.
@@ -317,6 +319,7 @@ pub(in crate::sinumerik) fn programs(
         serupro_ignores_overrides: data.general.serupro_mask & 16 == 16,
         serupro_speed: (md.serupro_speed_mode, md.serupro_speed_factor),
         approach_feed: setting.approach_feed,
+        increments_traverse_offsets: setting.frame_offset_incr_prog,
         shown_groups: md.gcode_groups_to_plc,
         shows_groups_in_order: md.gcode_groups_to_plc_mode & 1 == 1,
     }

@@ -207,7 +207,7 @@ impl State {
         run.interpreter.clone_from(&behind.interpreter);
         run.axis_feeds.clone_from(&behind.axis_feeds);
         (run.path_override, run.programmed_on_path) = (behind.path_override, behind.programmed_on_path);
-        run.end = behind.end;
+        (run.end, run.offsets) = (behind.end, behind.offsets);
         run.preparation = Preparation::Reads;
     }
 }

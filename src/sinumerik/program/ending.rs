@@ -4,7 +4,7 @@ use crate::image::channel_to_nck;
 use crate::nc_program::{Action, End};
 use crate::sinumerik::inputs::channel_signal;
 use crate::sinumerik::parameters::programs::OutputTime;
-use crate::sinumerik::program::executable::{Criterion, ProgrammedStop};
+use crate::sinumerik::program::executable::{Criterion, Executable, ProgrammedStop};
 use crate::sinumerik::program::execution::Progress;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::{Phase, Run, block_name};
@@ -45,6 +45,9 @@ impl State {
             return false;
         }
         let Some(block) = run.queue.front() else { return true };
+        if block.ends_approach {
+            return block.criterion == Criterion::Interpolation || self.is_in_position(block.criterion, run, stage);
+        }
         if block.way.is_none() || run.on_path == 0 {
             return true;
         }
@@ -69,6 +72,13 @@ impl State {
             let window = if criterion == Criterion::Coarse { set.exact_stop_coarse } else { set.exact_stop_fine };
             axis.setpoint.is_at_rest() && axis.deviation().abs() <= window
         })
+    }
+
+    /// Whether the stop of single block behind the block that runs waits for the next cycle: each NC start and each block before such a stop
+    /// is seen for a cycle with 35.0.
+    pub(super) fn single_block_waits(&self, run: &Run, stage: &Stage<'_>) -> bool {
+        let is_new = run.block_cycle.max(run.continued_cycle) == self.log.cycle;
+        is_new && run.queue.front().is_some_and(|block| single_block_stops(block, stage))
     }
 
     /// The block is over: the program stops, ends, or goes on.
@@ -118,7 +128,7 @@ impl State {
             let pressed = channel_signal(channel, channel_to_nck::nc_stop_at_block_limit, true);
             let event = self.log.note(place, Rule::StopAtBlockEnd, [pressed, input, Input::None], run.block_cause);
             self.stop_program(channel, event);
-        } else if signals.activate_single_block() && block.is_executable && !block.origin.is_single_block_off {
+        } else if single_block_stops(&block, stage) {
             let single = channel_signal(channel, channel_to_nck::activate_single_block, true);
             let event = self.log.note(place, Rule::SingleBlock, [single, input, Input::None], run.block_cause);
             self.stop_program(channel, event);
@@ -136,4 +146,11 @@ impl State {
             self.programs[stage.channel].output.add(&package, run.block_cause, stage.own.quick_is_free);
         }
     }
+}
+
+/// Whether single block stops the program behind a block. Type B (SBL2) stops behind every block, also behind one that only calculates.
+fn single_block_stops(block: &Executable, stage: &Stage<'_>) -> bool {
+    let group = stage.parameters.mode_group(stage.channel);
+    let is_active = stage.to_nck.channels[stage.channel].activate_single_block() && !block.origin.is_single_block_off;
+    is_active && (block.is_executable || stage.to_nck.mode_groups[group].single_block_type_b())
 }

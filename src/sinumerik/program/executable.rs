@@ -16,6 +16,8 @@ pub(in crate::sinumerik) struct Behind {
     pub axis_feeds: Vec<(AxisNumber, f64)>,
     pub path_override: f64,
     pub programmed_on_path: AxisSet,
+    /// The offsets with which the axes of the path were last programmed.
+    pub offsets: PerPathAxis,
     /// Where the axes of the path are then.
     pub end: PerPathAxis,
 }
@@ -57,6 +59,10 @@ pub(in crate::sinumerik) struct Executable {
     pub block: Option<Box<ReadBlock>>,
     /// The state behind a calculation, which is a block of its own in single block type 2.
     pub calculation: Option<Box<Behind>>,
+    /// A search has found this block, which calculates: nothing of it was done, and this is dropped when the program stands before it.
+    pub stands_before: bool,
+    /// The approach after a search was its motion, and ends with its exact stop.
+    pub ends_approach: bool,
 }
 
 impl Executable {
@@ -78,6 +84,8 @@ impl Executable {
             by_handwheel: false,
             block: None,
             calculation: None,
+            stands_before: false,
+            ends_approach: false,
         }
     }
 

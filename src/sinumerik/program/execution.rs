@@ -314,7 +314,8 @@ impl State {
                 let ends = run.queue.front().is_some_and(|block| block.end == Some(End::Program));
                 let moves = !run.positionings.is_empty() || self.spindles_are_positioned(stage.own);
                 let changes = self.gear_changing(stage).is_some();
-                if self.programs[channel].output.is_busy() || ends && moves || changes {
+                let busy = self.programs[channel].output.is_busy() || ends && moves || changes;
+                if busy || self.single_block_waits(run, stage) {
                     return Progress::Waits;
                 }
                 self.end_block(run, stage)

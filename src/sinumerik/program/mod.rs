@@ -14,6 +14,7 @@
 //! | `main_run.rs` | timers and markers of the main run |
 //! | `environment.rs` | what the language reads and writes: R parameters, system variables, machine data, programs |
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
+//! | `targets.rs` | targets of axis words: offsets, incremental dimensions, limits |
 //! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
 //! | `geometry.rs` | units, offsets, circles |
 //! | `executable.rs` | a block that is ready to be executed |
@@ -64,3 +65,4 @@ pub(super) mod selection;
 pub(super) mod start;
 pub(super) mod state;
 pub(super) mod synchronised;
+pub(super) mod targets;

@@ -49,7 +49,7 @@ impl Preparing<'_> {
                 return Err(BlockAlarm { number, parameters, block: block_name(&block.origin.name) });
             }
             let start = *end;
-            end[place] = self.target(block, target, axis, start[place], channel);
+            end[place] = self.target(block, target, (axis, place), start[place], run, channel);
             let way = Way::line(start, *end, self.own.axes.counted);
             self.check_limits(block, &way, &start, end)?;
             #[expect(clippy::cast_possible_truncation, reason = "a position fits")]

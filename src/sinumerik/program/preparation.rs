@@ -3,9 +3,8 @@
 use crate::control::{Owner, Value};
 use crate::image::ToNck;
 use crate::motion::path::{Feed, PathBlock, PerPathAxis, Way};
-use crate::nc_program::{Action, AxisIndex, AxisWord, Block, Prepared, ProgramAlarm};
+use crate::nc_program::{Action, AxisIndex, Block, Prepared, ProgramAlarm};
 use crate::sinumerik::alarms::programs as alarms;
-use crate::sinumerik::axis::limits::selected_limit;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::exchange::programs::{Availability, availability, exchanges};
 use crate::sinumerik::exchange::state::Owners;
@@ -42,7 +41,7 @@ pub(in crate::sinumerik) struct Preparing<'a> {
     pub open: AxisSet,
     /// What takes effect when preparation has waited until everything was executed: skip levels (MD10706 = 2), dry run (MD10704 = 2).
     pub at_stop: (Option<u16>, Option<bool>),
-    /// DB21.DBX0.4 with type 2 (SBL2): calculation blocks are blocks.
+    /// DB21.DBX0.4 with type 2 (SBL2): calculation blocks are blocks, and nothing is prepared behind a stop.
     pub stops_after_calculations: bool,
 }
 
@@ -63,6 +62,9 @@ impl Run {
             }
             self.holds_preparation &= !self.is_executed();
             if self.holds_preparation {
+                return;
+            }
+            if self.stops_preparation(preparing.stops_after_calculations) {
                 return;
             }
             if let Some(read) = self.again.pop_front() {
@@ -102,6 +104,12 @@ impl Run {
                     calculations += 1;
                     self.pauses |= calculations >= CALCULATIONS;
                 }
+                Ok(Prepared::Before(origin)) if self.search.is_some() => {
+                    let modal = self.interpreter.modal();
+                    self.queue.push_back(Executable { stands_before: true, ..Executable::new(origin, modal) });
+                }
+                // A search that is over.
+                Ok(Prepared::Before(_)) => {}
                 Ok(Prepared::Waits(_)) => self.preparation = Preparation::Waits,
                 Ok(Prepared::Ended) => self.preparation = Preparation::Ended,
                 Err(alarm) => self.fail(&alarm),
@@ -116,12 +124,21 @@ impl Run {
             axis_feeds: self.axis_feeds.clone(),
             path_override: self.path_override,
             programmed_on_path: self.programmed_on_path,
+            offsets: self.offsets,
             end: self.end,
         }
     }
 
+    /// Whether nothing is prepared behind the last block yet: it is the target of a search, or single block type 2 stops behind it.
+    fn stops_preparation(&self, is_single: bool) -> bool {
+        let Some(last) = self.queue.back() else { return false };
+        let is_target = self.search.as_ref().is_some_and(|search| search.is_target(&last.origin));
+        is_target || is_single && !last.origin.is_single_block_off
+    }
+
     fn fail(&mut self, alarm: &ProgramAlarm) {
-        self.preparation = Preparation::Failed { alarm: BlockAlarm::of(alarm), block: None };
+        let place = (alarm.program.clone(), alarm.line);
+        self.preparation = Preparation::Failed { alarm: BlockAlarm::of(alarm), place, block: None };
     }
 
     /// A correctable alarm was cancelled: its block is read again.
@@ -147,8 +164,8 @@ impl Run {
                 self.again.push_front(block);
             }
         }
-        self.programmed_on_path =
-            self.queue.back().and_then(Executable::behind).unwrap_or(&self.behind).programmed_on_path;
+        let behind = self.queue.back().and_then(Executable::behind).unwrap_or(&self.behind);
+        (self.programmed_on_path, self.offsets) = (behind.programmed_on_path, behind.offsets);
         self.end = position;
     }
 
@@ -165,7 +182,7 @@ impl Run {
                 return;
             }
             Availability::Refused(alarm) if !calculates => {
-                self.preparation = Preparation::Failed { alarm, block: Some(read) };
+                self.preparation = Preparation::failed(alarm, read);
                 return;
             }
             Availability::All | Availability::Claims(_) | Availability::Refused(_) => {}
@@ -173,18 +190,20 @@ impl Run {
         // Blocks behind it may find other axes, or find them elsewhere.
         let waits = exchanges(&read.block) || preparing.own.waits_behind(&read.block);
         self.holds_preparation = waits && !calculates;
-        let mut end = self.end;
+        let (mut end, offsets) = (self.end, self.offsets);
         match preparing.executable(&read.block, self, &mut end, channel) {
             Ok(executable) => {
                 self.end = end;
                 (read.behind.end, read.behind.axis_feeds) = (end, self.axis_feeds.clone());
                 (read.behind.path_override, read.behind.programmed_on_path) =
                     (self.path_override, self.programmed_on_path);
+                read.behind.offsets = self.offsets;
                 self.queue.push_back(Executable { block: Some(read), ..executable });
             }
             Err(alarm) => {
                 // What is prepared again behind it stays for later.
-                self.preparation = Preparation::Failed { alarm, block: Some(read) };
+                self.preparation = Preparation::failed(alarm, read);
+                self.offsets = offsets;
             }
         }
     }
@@ -216,7 +235,7 @@ impl Preparing<'_> {
         let start = *end;
         for word in &block.axes {
             let (axis, place) = self.path_axis(block, word.axis)?;
-            end[place] = self.target(block, word, axis, start[place], channel);
+            end[place] = self.target(block, word, (axis, place), start[place], run, channel);
             run.programmed_on_path.set(axis, true);
         }
         let turns = matches!(block.modal.index(1), 3 | 4) && (!block.axes.is_empty() || !block.circle.is_empty());
@@ -273,70 +292,6 @@ impl Preparing<'_> {
 
     pub(super) fn name(&self, name: AxisIndex) -> Parameter {
         Parameter::Text(short_text(self.own.axes.names.name(name)))
-    }
-
-    /// The settable and the programmable offset of an axis.
-    fn offset(&self, block: &Block, axis: AxisNumber, channel: &Channel<'_>) -> f64 {
-        if geometry::suppresses_offsets(block) {
-            // SUPA also suppresses the DRF offset.
-            let drf =
-                if geometry::suppresses_overlays(block) { channel.axes[axis].overlay.target } else { Position::ZERO };
-            return -(drf.increments() as f64);
-        }
-        let settable = geometry::active_offset(block)
-            .map_or(0.0, |index| channel.program.settable_offset(index, axis).increments() as f64);
-        settable + geometry::programmable_offset(block, &self.own.axes, axis, self.parameters.axes[axis].rotary)
-    }
-
-    pub(super) fn target(
-        &self,
-        block: &Block,
-        word: &AxisWord,
-        axis: AxisNumber,
-        from: f64,
-        channel: &Channel<'_>,
-    ) -> f64 {
-        let parameters = &self.parameters.axes[axis];
-        let value = geometry::length(word.value, block, parameters.rotary);
-        geometry::target(value, word.dimension, from, self.offset(block, axis, channel), parameters.modulo)
-    }
-
-    /// 10720, 10722, 10730: the end, and the farthest points of an arc.
-    pub(super) fn check_limits(
-        &self,
-        block: &Block,
-        way: &Way,
-        start: &PerPathAxis,
-        end: &PerPathAxis,
-    ) -> Result<(), BlockAlarm> {
-        for (place, &axis) in self.own.axes.path.iter().enumerate() {
-            let (lowest, highest) = way.bounds(place);
-            let moves = highest - lowest >= 0.5 || (end[place] - start[place]).abs() >= 0.5;
-            if !moves || !self.axes[axis].is_referenced() {
-                continue;
-            }
-            let parameters = &self.parameters.axes[axis];
-            for (direction, extreme, at_end) in [(-1, lowest, end[place]), (1, highest, end[place])] {
-                let beyond = |limit: Position, position: f64| {
-                    (position - limit.increments() as f64) * f64::from(direction) > 0.5
-                };
-                let side = usize::from(direction > 0);
-                let said = [Parameter::Axis(axis), block_parameter(block), Parameter::Direction(direction)];
-                let limit = selected_limit(&self.to_nck.axes[axis], parameters, direction);
-                let software = limit.filter(|limit| beyond(*limit, extreme));
-                if let Some(limit) = software {
-                    let number =
-                        if beyond(limit, at_end) { alarms::BEHIND_SOFTWARE_LIMIT } else { alarms::PATH_BEHIND_LIMIT };
-                    return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });
-                }
-                let area = parameters.working_area[side].filter(|_| block.modal.index(28) == 1);
-                if area.is_some_and(|limit| beyond(limit, extreme)) {
-                    let number = alarms::OUTSIDE_WORKING_AREA;
-                    return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });
-                }
-            }
-        }
-        Ok(())
     }
 
     fn take_actions(

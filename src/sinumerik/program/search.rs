@@ -6,7 +6,8 @@
 //! | contour (2), block end point (4) | calculates everything up to the block: R parameters, positions, the last auxiliary function of each group; nothing moves, nothing is output. Then the axes go to the start, or to the end, of the block |
 //! | SERUPRO (5) | executes everything up to the block in a program test: with outputs, at another speed (MD22600), and without motion of any axis. Then the axes go to where the block starts |
 //!
-//! After the search the program is stopped. NC start outputs the functions that types 2 and 4 have collected, in action blocks (32.3); with the
+//! The block may also be one that calculates, jumps or calls: the program then stands before it, and types 2, 4 and 5 approach where the axes are
+//! there. After the search the program is stopped. NC start outputs the functions that types 2 and 4 have collected, in action blocks (32.3); with the
 //! last one (32.6), and with 1.6 if MD11450 bit 0 says so, 10208 asks for another NC start. That cancels 10208; the axes approach the
 //! block together (32.4), and the program goes on. A leading axis takes its grouping along, in the search and in the approach (MIS-10).
 
@@ -118,6 +119,9 @@ impl State {
         let mut interpreter = Interpreter::new(&selected, own.modal, self.initial_feed(channel, own), false);
         if kind == SearchKind::WithoutCalculation && !interpreter.go_to(&found, &wanted) {
             return Err((alarms::SEARCH_TARGET_MISSING, target.to_owned()));
+        }
+        if kind != SearchKind::WithoutCalculation {
+            interpreter.stop_before(wanted);
         }
         let mut run = self.new_run((channel, false), interpreter, own, (parameters, to_nck), event);
         run.search = Some(Box::new(Search {
@@ -286,15 +290,21 @@ impl State {
         let name = run.queue.front().map(|block| block.origin.name.clone()).unwrap_or_default();
         let input = if name.is_empty() { Input::None } else { Input::Block(block_name(&name)) };
         let cause = self.search_goes_on(run, stage, Progress::Found, Rule::SearchFound, input);
+        // A block that calculates is read again when the program goes on.
+        let calculates = run.queue.front().is_some_and(|block| block.stands_before);
+        if calculates {
+            run.queue.pop_front();
+        }
         let axes = &stage.own.axes.path;
         let approach = match kind {
             SearchKind::WithoutCalculation => None,
             SearchKind::Contour => Some(run.behind.end),
+            SearchKind::EndPoint if calculates => Some(run.behind.end),
             SearchKind::EndPoint => {
                 let end = run.queue.front().and_then(|block| block.behind()).map(|behind| behind.end);
                 if let Some(block) = run.queue.front_mut() {
-                    block.way = None;
-                    block.positions.clear();
+                    let waits = block.positions.drain(..).any(|positioning| positioning.waits);
+                    block.ends_approach = block.way.take().is_some_and(|way| way.exact_stop) || waits;
                 }
                 end
             }
@@ -361,7 +371,7 @@ impl State {
         self.stop_program(stage.channel, cause);
     }
 
-    /// NC start after 10208: all axes of the path go together to where the block begins.
+    /// NC start after 10208: all axes of the path go together to the start, or to the end, of the block.
     fn begin_approach(&mut self, run: &mut Run, stage: &Stage<'_>) {
         let cause = self.programs[stage.channel].cause;
         let Some(search) = run.search.take() else { return };

@@ -167,12 +167,15 @@ impl State {
         event: EventId,
     ) -> Run {
         let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
+        let settable = interpreter.modal().index(8);
+        let offsets = on_path(&own.axes.path, |axis| self.programs[channel].settable_offset(settable, axis));
         let limits = limits(own, parameters);
         let behind = Behind {
             interpreter: interpreter.clone(),
             axis_feeds: Vec::new(),
             path_override: 1.0,
             programmed_on_path: AxisSet::NONE,
+            offsets,
             end: position,
         };
         Run {
@@ -197,6 +200,7 @@ impl State {
             dwell: 0,
             block_cause: event,
             block_cycle: self.log.cycle,
+            continued_cycle: self.log.cycle,
             stopping: None,
             resetting: None,
             delete_was: false,
@@ -223,6 +227,7 @@ impl State {
             path_override: 1.0,
             handwheel_share: 0.0,
             programmed_on_path: AxisSet::NONE,
+            offsets,
             waits: None,
             starts: Vec::new(),
             search: None,
@@ -237,8 +242,9 @@ impl State {
         let program = &mut self.programs[channel];
         (program.state, program.cause) = (ProgramState::Running, event);
         (program.programmed_stop, program.associated_stop) = (false, false);
+        let cycle = self.log.cycle;
         if let Some(run) = &mut program.run {
-            (run.stopping, run.reads_again) = (None, true);
+            (run.stopping, run.reads_again, run.continued_cycle) = (None, true, cycle);
             run.referencing_started = AxisSet::NONE;
         }
     }

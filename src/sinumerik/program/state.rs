@@ -170,7 +170,20 @@ pub(in crate::sinumerik) enum Preparation {
     /// There are no more blocks.
     Ended,
     /// A block cannot be executed. `block` is prepared again after a correctable alarm of the channel.
-    Failed { alarm: BlockAlarm, block: Option<Box<ReadBlock>> },
+    Failed {
+        alarm: BlockAlarm,
+        /// The path of its program, and the line.
+        place: (String, u32),
+        block: Option<Box<ReadBlock>>,
+    },
+}
+
+impl Preparation {
+    /// A block that was read cannot be executed.
+    pub(in crate::sinumerik) fn failed(alarm: BlockAlarm, block: Box<ReadBlock>) -> Self {
+        let origin = &block.block.origin;
+        Self::Failed { alarm, place: (origin.program.clone(), origin.line), block: Some(block) }
+    }
 }
 
 /// The alarm of a block, raised when everything before the block has been executed.
@@ -282,6 +295,8 @@ pub(in crate::sinumerik) struct Run {
     pub block_cause: EventId,
     /// The cycle in which it began.
     pub block_cycle: u64,
+    /// The cycle of the last NC start.
+    pub continued_cycle: u64,
     /// The event that stops the program; it is stopped when its axes are at rest.
     pub stopping: Option<EventId>,
     /// The event of a RESET that ends the program when its axes are at rest.
@@ -333,6 +348,8 @@ pub(in crate::sinumerik) struct Run {
     pub handwheel_share: f64,
     /// The axes that the last block which named them has moved on the path: they are no positioning axes.
     pub programmed_on_path: AxisSet,
+    /// The offsets with which the axes of the path were last programmed, in increments.
+    pub offsets: PerPathAxis,
     /// What it waits for in other channels.
     pub waits: Option<WaitFor>,
     /// The programs that it starts in other channels, at the end of the stage.

@@ -1,14 +1,13 @@
 //! The values of the program of a channel: the block that runs, and the name of its program.
 
-use crate::nc_program::Origin;
 use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::program::state::{ChannelProgram, Phase};
+use crate::sinumerik::program::state::{ChannelProgram, Phase, Preparation};
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{ChannelValues, program_name};
 
 impl ChannelProgram {
-    /// Between two blocks, and in a block whose display is off (DISPLOF), the values stay.
+    /// The block of an alarm when everything before it has been executed. Between two blocks, and in a block whose display is off (DISPLOF), the values stay.
     pub(super) fn show_values(&self, values: &mut ChannelValues) {
         let Some(run) = &self.run else {
             values.block = 0;
@@ -18,9 +17,15 @@ impl ChannelProgram {
             }
             return;
         };
+        if let (Preparation::Failed { alarm, place: (program, line), .. }, true) = (&run.preparation, run.is_executed())
+        {
+            values.block = block_number(&alarm.block, *line);
+            values.program = program_name(program);
+            return;
+        }
         let runs = run.queue.front().filter(|_| run.phase != Phase::Between);
         if let Some(origin) = runs.map(|block| &block.origin).filter(|origin| !origin.is_display_off) {
-            values.block = block_number(origin);
+            values.block = block_number(&origin.name, origin.line);
             values.program = program_name(&origin.program);
         }
     }
@@ -45,9 +50,9 @@ impl State {
 }
 
 /// The N number of a block, else its line.
-fn block_number(origin: &Origin) -> u32 {
-    let digits = origin.name.strip_prefix(['N', ':']).unwrap_or_default();
+fn block_number(name: &str, line: u32) -> u32 {
+    let digits = name.strip_prefix(['N', ':']).unwrap_or_default();
     let is_number = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit());
     let number = digits.parse().ok().filter(|_| is_number);
-    number.unwrap_or(origin.line)
+    number.unwrap_or(line)
 }

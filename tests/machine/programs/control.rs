@@ -347,3 +347,92 @@ fn the_path_feed_stays_over_the_end_of_a_program_with_md22410() {
         assert_eq!(session.value("alarm(10860)").unwrap(), alarm);
     }
 }
+
+/// nc_programs.md 3.4: SBL2 stops behind every block, and R parameters are those of the blocks that were executed. Each NC start is seen as a
+/// cycle with 35.0 in which `block` is the one that runs.
+#[test]
+fn single_block_of_type_b_stops_after_calculations_and_executes_none_ahead() {
+    let mut session = automatic("N10 G0 X10\nN20 R1=5\nN30 R1=R1*2\nN40 G90\nN50 STOPRE\nN60 G1 X20 F5000\nM30");
+    session.set("CHAN1.activate_single_block", 1).unwrap();
+    session.set("mode_group_1.single_block_type_b", 1).unwrap();
+    start(&mut session);
+    session.expect("CHAN1.block == 10 && R1 == 0").unwrap();
+    session.wait("CHAN1.program_state_stopped", "5s").unwrap();
+    session.expect("R1 == 0").unwrap();
+    for (block, r) in [(20, 5), (30, 10), (40, 10), (50, 10)] {
+        start(&mut session);
+        session.expect(&format!("CHAN1.program_state_running && CHAN1.block == {block}")).unwrap();
+        session.run("1cycles").unwrap();
+        session.expect(&format!("CHAN1.program_state_stopped && CHAN1.block == {block} && R1 == {r}")).unwrap();
+    }
+    start(&mut session);
+    session.wait("CHAN1.program_state_stopped", "5s").unwrap();
+    assert_eq!(position(&session)[0], 20.0);
+}
+
+/// Type A runs through calculations, and stops behind M17 and MSG, which take no time.
+#[test]
+fn each_start_in_single_block_is_seen_as_running() {
+    let text = "%_N_MAIN_MPF\nN10 R1=1\nN20 L7\nN30 MSG(\"A\")\nN40 G4 F0.1\nN50 M30\n%_N_L7_SPF\nN100 G1 Y5 F1000\nN110 M17\n";
+    let mut session = automatic(text);
+    session.set("CHAN1.activate_single_block", 1).unwrap();
+    start(&mut session);
+    for block in [100, 110, 30, 40] {
+        session.expect(&format!("CHAN1.program_state_running && CHAN1.block == {block}")).unwrap();
+        session.wait("CHAN1.program_state_stopped", "5s").unwrap();
+        session.run("100ms").unwrap();
+        session.expect(&format!("CHAN1.program_state_stopped && CHAN1.block == {block}")).unwrap();
+        start(&mut session);
+    }
+    session.wait("CHAN1.m2_m30_active", "1s").unwrap();
+}
+
+/// nc_programs.md 3.5: blocks that calculate, jump or call are found like others. Three passes, each to X = 10·R1 and Y = 5·R1.
+#[test]
+fn a_search_finds_blocks_that_calculate_jump_or_call() {
+    let text = "%_N_MAIN_MPF\nN10 R1=0\nN20 WHILE R1<3\nN30 R1=R1+1\nN40 G1 X=R1*10 F5000\nN50 L7\nN60 ENDWHILE\nN70 M30\n\
+                %_N_L7_SPF\nN100 G1 Y=R1*5\nN110 M17\n";
+    // Where the approach leads to, and R1 there: in the first pass.
+    for (block, r, x, y) in
+        [("N20", 0, 0.0, 0.0), ("N30", 0, 0.0, 0.0), ("N40", 1, 0.0, 0.0), ("N50", 1, 10.0, 0.0), ("N60", 1, 10.0, 5.0)]
+    {
+        for kind in ["contour", "end_point", "serupro"] {
+            let mut session = automatic(text);
+            session.search(block, kind, 1).unwrap();
+            session.run("10ms").unwrap();
+            session.wait("CHAN1.program_state_stopped", "10s").unwrap();
+            if kind != "serupro" {
+                start(&mut session);
+            }
+            session.wait("alarm(10208)", "1s").unwrap();
+            session.expect(&format!("R1 == {r} && abs(X.position) < 0.01")).unwrap();
+            start(&mut session);
+            session.expect("!alarm(10208) && CHAN1.program_state_running").unwrap();
+            session.wait("!CHAN1.approach_block_active", "5s").unwrap();
+            let end = if block == "N40" && kind == "end_point" { 10.0 } else { x };
+            assert_eq!(position(&session)[..2], [end, y], "{block} {kind}");
+            session.wait("CHAN1.m2_m30_active || alarms() > 0", "10s").unwrap();
+            session.expect("alarms() == 0 && R1 == 3").unwrap();
+            assert_eq!(position(&session)[..2], [30.0, 15.0], "{block} {kind}");
+        }
+    }
+    // A block of the subprogram is not found: 15350.
+    let mut session = automatic(text);
+    session.search("N100", "contour", 1).unwrap();
+    session.wait("alarm(15350)", "1s").unwrap();
+}
+
+/// The approach to the end of a block with G60 ends with its exact stop: M30 comes when 60.7 = 1.
+#[test]
+fn the_approach_to_the_end_point_ends_with_the_exact_stop_of_the_block() {
+    let mut session = automatic("N10 G60 G0 X10\nN50 G1 X100 F2000\nN60 M30");
+    session.search("N50", "end_point", 1).unwrap();
+    session.run("50ms").unwrap();
+    start(&mut session);
+    session.wait("alarm(10208)", "1s").unwrap();
+    start(&mut session);
+    session.wait("X.setpoint == 100", "5s").unwrap();
+    session.expect("!X.position_reached_exact_stop_fine").unwrap();
+    session.wait("CHAN1.decoded_m_function_30", "1s").unwrap();
+    session.expect("X.position_reached_exact_stop_fine").unwrap();
+}

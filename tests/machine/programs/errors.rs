@@ -173,3 +173,22 @@ fn an_axis_that_posa_still_moves_is_not_positioned_again() {
     session.run("1s").unwrap();
     session.expect("alarms() == 0 && CHAN1.program_state_aborted && Z.setpoint < 50").unwrap();
 }
+
+/// The program and the block of an alarm are shown: those of the subprogram, also for an error that preparation finds.
+#[test]
+fn the_program_in_which_an_alarm_is_is_shown() {
+    for (bad, alarm) in [("FOO=3", 12550), ("G2 X10 Y0 I1 J0 F1000", 14040)] {
+        let text = format!(
+            "%_N_MAIN_MPF\nN10 G1 X5 F6000\nN20 CIRCLE\nN30 M30\n%_N_CIRCLE_SPF\nN100 R1=1\nN110 {bad}\nN120 M17\n"
+        );
+        let mut session = automatic(&text);
+        session.watch(&["CHAN1.program"]).unwrap();
+        start(&mut session);
+        session.expect("CHAN1.block == 10").unwrap();
+        session.wait(&format!("alarm({alarm})"), "5s").unwrap();
+        session.run("1cycles").unwrap();
+        session.expect("CHAN1.block == 110 && CHAN1.program_state_stopped").unwrap();
+        let text = session.sequence();
+        assert!(text.contains("MAIN.MPF -> CIRCLE.SPF"), "{text}");
+    }
+}
