@@ -97,7 +97,9 @@ pub fn signal_value(name: &str, node: &Node, location: Location, coding: Overrid
 pub fn is_no_code(name: &str, number: i64, location: Location, coding: OverrideCoding) -> bool {
     let is_symbol =
         name.split_once('.').is_some_and(|(_, signal)| signal.starts_with(|c: char| c.is_ascii_lowercase()));
-    is_symbol && !(0..=i64::from(LARGEST_GRAY_CODE)).contains(&number) && coding.at(location).is_some_and(|(_, gray)| gray)
+    is_symbol
+        && !(0..=i64::from(LARGEST_GRAY_CODE)).contains(&number)
+        && coding.at(location).is_some_and(|(_, gray)| gray)
 }
 
 /// The largest code of an override switch with Gray code, which has five bits.
@@ -113,10 +115,6 @@ fn per_cent(text: &str, node: &Node, location: Location, coding: OverrideCoding)
         };
         return Err(node.expected("a plain number", &cure));
     };
-    code.map(u64::from).ok_or_else(|| {
-        node.expected(
-            "a percentage of the override switch",
-            &format!("its percentages are {known}"),
-        )
-    })
+    code.map(u64::from)
+        .ok_or_else(|| node.expected("a percentage of the override switch", &format!("its percentages are {known}")))
 }

@@ -146,7 +146,8 @@ impl Checker<'_> {
                 self.last = Last::Unknown;
                 self.raise(fault, &head, line, text);
                 if defines {
-                    self.undefined.extend(names(&text[head.rest..], self.dialect.comment).filter(|name| !is_keyword(name)));
+                    self.undefined
+                        .extend(names(&text[head.rest..], self.dialect.comment).filter(|name| !is_keyword(name)));
                 }
                 return;
             }

@@ -395,7 +395,8 @@ fn why_not_names_what_holds_a_program() {
     write("\"X2.feed_stop\" = 1");
     asked("X.axis_stationary", "X2.feed_stop (DB34.DBX4.3) = 1, wanted 0");
     write("\"CHAN1.read_in_disable\" = 1");
-    for signal in ["X.traverse_command_plus", "X.axis_stationary", "CHAN1.decoded_m_function_6", "CHAN1.m2_m30_active"] {
+    for signal in ["X.traverse_command_plus", "X.axis_stationary", "CHAN1.decoded_m_function_6", "CHAN1.m2_m30_active"]
+    {
         asked(signal, "CHAN1.read_in_disable (DB21.DBX6.1) = 1, wanted 0");
     }
 }

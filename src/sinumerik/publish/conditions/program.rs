@@ -157,7 +157,11 @@ impl Look<'_> {
         let found = if is_set { "yes" } else { "no" };
         let wanted = if question.wanted { "yes" } else { "no" };
         let shown = Fact::new(what, found, wanted, is_set == question.wanted);
-        Some(if question.wanted { shown.after(|| self.reaches(channel, "a block that outputs it")) } else { shown.into() })
+        Some(if question.wanted {
+            shown.after(|| self.reaches(channel, "a block that outputs it"))
+        } else {
+            shown.into()
+        })
     }
 
     /// What a program waits for before it reaches a later block. Whether that block comes is not known.
@@ -167,7 +171,8 @@ impl Look<'_> {
         let Some((run, stage)) = program.run.as_deref().zip(self.stage(channel)) else {
             return self.program(channel, ProgramState::Running);
         };
-        let nothing_held = |what: &str, found: &str| Fact::new(format!("{what} of {name}"), found, "none", false).into();
+        let nothing_held =
+            |what: &str, found: &str| Fact::new(format!("{what} of {name}"), found, "none", false).into();
         let mut all = Vec::new();
         match program.state {
             ProgramState::Running => {}
