@@ -171,7 +171,7 @@ fn run(side: &Side, disturbance: Option<FaultKind>) -> Result<Course, Failure> {
     let mut session = side.open()?;
     let [start, ..] = side.sample(&session);
     session.set(side.start, true)?;
-    while side.sample(&session)[0] == start {
+    while (side.sample(&session)[0] - start).abs() <= 0.0 {
         session.run("1cycles")?;
     }
     let mut course = Course { samples: Vec::new(), limit: None, result: String::new() };
