@@ -6,6 +6,7 @@ use crate::motion::Brake;
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::controllers::{ControllerState, STEP};
 use crate::sinumerik::parameters::dynamics::StopLimit;
+use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::state::Unit;
 use crate::units::{AxisNumber, Position};
@@ -144,6 +145,12 @@ impl Look<'_> {
         if !self.state.axes[number].travel.is_pending() {
             let commands = [axis_from_nck::traverse_command_minus, axis_from_nck::traverse_command_plus];
             let commanded = Condition::Any(commands.map(|command| self.axis(number, command, true)).into());
+            let program = &self.state.programs[unit.channel];
+            let runs = matches!(program.state, ProgramState::Running | ProgramState::Waiting);
+            if self.state.axes[number].compensation.command == 0 && runs {
+                let next = self.reaches(unit.channel, "one that moves the axis");
+                return Condition::All(vec![commanded, next]);
+            }
             if self.state.axes[number].compensation.command == 0 {
                 return commanded;
             }

@@ -165,7 +165,7 @@ impl Look<'_> {
     }
 
     /// What a program waits for before it reaches a later block. Whether that block comes is not known.
-    fn reaches(self, channel: ChannelNumber, wanted: &str) -> Condition {
+    pub(super) fn reaches(self, channel: ChannelNumber, wanted: &str) -> Condition {
         let program = &self.state.programs[channel];
         let name = self.channel_name(channel);
         let Some((run, stage)) = program.run.as_deref().zip(self.stage(channel)) else {
