@@ -138,8 +138,9 @@ impl State {
             // Nothing will move.
             return false;
         }
-        if by == RequestedBy::Key && !parameters.jog_mode {
-            // The press counts: the key need not be held (MD11300 = 0).
+        let off = unit.members().any(|axis| !self.axes[axis].enabling.is_on());
+        if by == RequestedBy::Key && !parameters.jog_mode && off {
+            // The press counts: the key need not be held (MD11300 = 0). Feed disable does not keep it.
             self.axes[number].key_pending = direction;
         }
         // An approach that begins on the cam first leaves it.
