@@ -458,10 +458,11 @@ fn length(path: &str, text: &str) -> Option<String> {
 fn unpaired(paths: &[String]) -> Vec<String> {
     let mut findings = Vec::new();
     for path in paths {
-        // A scenario with a matrix has a golden file for each case, `name@values.snap`; a part has none.
+        // A scenario with a matrix has a golden file for each case, `name@values.snap`; a part and a machine have none.
         let has_cases = |name: &str| paths.iter().any(|path| path.starts_with(&format!("{name}@")));
         if let Some(name) = path.strip_suffix(".toml")
             && !path.contains("/parts/")
+            && !path.ends_with("/plant.toml")
             && !paths.contains(&format!("{name}.snap"))
             && !has_cases(name)
         {

@@ -151,8 +151,10 @@ mod tests {
         });
         let text = text(None, &nothing.collect::<Vec<_>>());
         let dashed = styled(&text, "stroke:#c00,stroke-dasharray:4");
-        let abort = edges(&text).iter().position(|edge| edge.contains("AnyPhase")).unwrap();
-        let expected: Vec<_> = (0..edges(&text).len()).filter(|&index| index != abort).collect();
+        let all = edges(&text);
+        // What can happen in every phase is no row of a table, and no scenario can use it.
+        let expected: Vec<_> = (0..all.len()).filter(|&index| !all[index].contains("AnyPhase")).collect();
+        assert!(expected.len() < all.len());
         assert_eq!(dashed, expected);
         assert!(styled(&text, "stroke-width:4px").is_empty());
         assert_eq!(summary(&text).count(), 1 + dashed.len());

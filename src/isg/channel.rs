@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, VecDeque};
 
 use serde::{Deserialize, Serialize};
 
-use super::homing::Job;
+use super::groups::{Definition, Group};
+use super::homing::job::Job;
 use super::language::{Block, Fault, Interpreter};
-use super::links::{Definition, Group};
 use crate::motion::coupling::Coupling;
 use crate::motion::path::{Path, PerPathAxis};
 use crate::units::{AxisNumber, ChannelNumber, Position};

@@ -1,90 +1,13 @@
 //! The state machines of both kinds of gantry, as tables: what is drawn as a flowchart, and which rows a run has used.
 
-use serde::{Deserialize, Serialize};
-
-use super::gantry::Combination;
-use super::homing;
-use super::links::Group;
+use super::combination::Combination;
+use super::groups::Group;
+use super::homing::run;
+use super::phases::{GANTRY, GANTRY_STEPS, GantryPhase, LINK, LINK_STEPS, LinkPhase};
 use super::rules::Why;
 use super::state::{AxisError, State};
-use crate::control::{Chart, Rows, Transition, next, row};
+use crate::control::{Chart, Rows, Transition, next};
 use crate::motion::coupling::Coupling;
-
-/// The places of the charts in the rows that were used.
-pub(super) const HOMING: usize = 0;
-const GANTRY: usize = 1;
-pub(super) const LINK: usize = 2;
-
-/// What a combination of the hard gantry is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum GantryPhase {
-    /// Coupled; not all members are homed.
-    #[default]
-    NotHomed,
-    /// Coupled, and the difference counts from the offset of the list.
-    Homed,
-    /// Stopped by stage 1.
-    Stopped,
-    /// Stopped by stage 2.
-    Locked,
-    /// Slaves move to their offset.
-    Clearing,
-    /// Opened by a program.
-    Open,
-}
-
-/// The transitions of a combination.
-const GANTRY_STEPS: &[Transition<GantryPhase, Why>] = &[
-    row(GantryPhase::NotHomed, Why::AllHomed, GantryPhase::Homed),
-    row(GantryPhase::NotHomed, Why::StageOne, GantryPhase::Stopped),
-    row(GantryPhase::NotHomed, Why::StageTwo, GantryPhase::Locked),
-    row(GantryPhase::NotHomed, Why::ClearingBegins, GantryPhase::Clearing),
-    row(GantryPhase::NotHomed, Why::CombinationOff, GantryPhase::Open),
-    row(GantryPhase::Homed, Why::HomingBegins, GantryPhase::NotHomed),
-    row(GantryPhase::Homed, Why::StageOne, GantryPhase::Stopped),
-    row(GantryPhase::Homed, Why::StageTwo, GantryPhase::Locked),
-    row(GantryPhase::Homed, Why::ClearingBegins, GantryPhase::Clearing),
-    row(GantryPhase::Homed, Why::CombinationOff, GantryPhase::Open),
-    row(GantryPhase::Clearing, Why::ClearingEnds, GantryPhase::Homed),
-    row(GantryPhase::Clearing, Why::StageOne, GantryPhase::Stopped),
-    row(GantryPhase::Clearing, Why::StageTwo, GantryPhase::Locked),
-    row(GantryPhase::Stopped, Why::ClearingBegins, GantryPhase::Clearing),
-    row(GantryPhase::Stopped, Why::Cleared, GantryPhase::Homed),
-    row(GantryPhase::Stopped, Why::StageTwo, GantryPhase::Locked),
-    row(GantryPhase::Open, Why::CombinationOn, GantryPhase::Homed),
-];
-
-/// What a coupling group of the soft gantry is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum LinkPhase {
-    /// Not active.
-    #[default]
-    Inactive,
-    /// Active.
-    Active,
-    /// Stopped by limit_1.
-    Stopped,
-    /// Stopped by limit_2.
-    Locked,
-    /// A reset has switched it off, and slaves move to their offset.
-    Clearing,
-}
-
-/// The transitions of a coupling group.
-const LINK_STEPS: &[Transition<LinkPhase, Why>] = &[
-    row(LinkPhase::Inactive, Why::GroupOn, LinkPhase::Active),
-    row(LinkPhase::Inactive, Why::GroupRestored, LinkPhase::Active),
-    row(LinkPhase::Active, Why::GroupOff, LinkPhase::Inactive),
-    row(LinkPhase::Active, Why::GroupEnds, LinkPhase::Inactive),
-    row(LinkPhase::Active, Why::SoftStageOne, LinkPhase::Stopped),
-    row(LinkPhase::Active, Why::SoftStageTwo, LinkPhase::Locked),
-    row(LinkPhase::Active, Why::ClearingBegins, LinkPhase::Clearing),
-    row(LinkPhase::Stopped, Why::SoftStageTwo, LinkPhase::Locked),
-    row(LinkPhase::Stopped, Why::ClearingBegins, LinkPhase::Clearing),
-    row(LinkPhase::Stopped, Why::GroupEnds, LinkPhase::Inactive),
-    row(LinkPhase::Locked, Why::GroupEnds, LinkPhase::Inactive),
-    row(LinkPhase::Clearing, Why::GroupEnds, LinkPhase::Inactive),
-];
 
 /// Goes to a phase by the first row that leads there; without one the phase changes, and no row is used.
 fn to<P: Copy + PartialEq + Default + std::fmt::Debug>(
@@ -169,7 +92,7 @@ pub(super) fn charts() -> Vec<Chart> {
         LinkPhase::Clearing => "the slaves move to their offset",
     };
     vec![
-        Chart::of("homing", "Homing of an axis", homing::STEPS, homing::text, |_| None),
+        Chart::of("homing", "Homing of an axis", run::STEPS, run::text, |_| None),
         Chart::of("hard_gantry", "Hard gantry: a combination", GANTRY_STEPS, gantry, |_| None)
             .with_step_from_anywhere(Why::PowerOn, GantryPhase::NotHomed),
         Chart::of("soft_gantry", "Soft gantry: a coupling group", LINK_STEPS, link, |_| None)

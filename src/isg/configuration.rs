@@ -293,7 +293,7 @@ impl State {
     /// The combinations, as lines of text.
     pub(super) fn configuration(&self, names: &Names) -> Vec<String> {
         let name = |axis: AxisNumber| names.axes[axis].clone().unwrap_or_default();
-        let line = |one: &super::gantry::Combination| {
+        let line = |one: &super::combination::Combination| {
             let slaves: Vec<String> = one.coupling.followers().map(name).collect();
             format!("gantry combination: master {}, slaves {}", name(one.coupling.leader()), slaves.join(", "))
         };

@@ -1,41 +1,18 @@
 //! The hard gantry: combinations of a master and its slaves by parameter list (HG-01 to HG-29), as a policy over the coupling engine.
 
-use serde::{Deserialize, Serialize};
-
-use super::charts::GantryPhase;
+use super::combination::{Combination, POLICY};
 use super::messages;
 use super::parameters::{AxisParameters, Clearing};
 use super::pending::of_axis;
+use super::phases::GantryPhase;
 use super::rules::Why;
 use super::state::{AxesView, Axis, AxisError, State};
 use crate::motion::Limits;
 use crate::motion::coupling::{
-    BeforeReference, Coupling, CouplingEvent, Events, Follower, GroupStop, Moves, OffsetSource, Policy, Progress,
-    Reaction, Realign, Release, Target, What,
+    Coupling, CouplingEvent, Events, Follower, Moves, OffsetSource, Progress, Realign, Target, What,
 };
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
-
-/// The reactions of both kinds of gantry: stage 1 stops until a reset, stage 2 until a restart (HG-07, SG-04).
-pub(super) const POLICY: Policy = Policy {
-    first: Reaction::Stop,
-    second: Reaction::Lock,
-    before_reference: BeforeReference::Relative,
-    release: Release::CountAnew,
-    stop: GroupStop::Leading,
-};
-
-/// A combination of a master and its slaves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Combination {
-    pub coupling: Coupling,
-    /// Its axes home at once, each for itself.
-    pub homes_at_once: bool,
-    /// What it is doing, for the chart.
-    pub phase: GantryPhase,
-    /// The event with which it was opened or closed.
-    pub cause: EventId,
-}
 
 /// The combinations that the lists define, masters ascending.
 pub(super) fn combinations(axes: &PerAxis<Axis>, cause: EventId) -> Vec<Combination> {

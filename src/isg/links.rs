@@ -1,14 +1,13 @@
 //! The soft gantry: coupling groups that programs define, switch on and switch off (SG-01 to SG-25), as a policy over the coupling engine.
 
-use serde::{Deserialize, Serialize};
-
 use super::channel::Channel;
-use super::charts::LinkPhase;
-use super::gantry::POLICY;
+use super::combination::POLICY;
+use super::groups::Group;
 use super::language::{AxisReference, Form, Link, LinkOff, Pair};
 use super::messages;
 use super::parameters::{Clearing, GANTRY_BITS, length, velocity};
 use super::pending::of_axis;
+use super::phases::LinkPhase;
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
 use crate::motion::coupling::{Coupling, Follower, Moves, OffsetSource, Realign, Sign, Target, TwoStage};
@@ -17,21 +16,6 @@ use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm, shor
 
 /// Coupling groups 0 to 6: 0 is of the channel list (SG-14).
 pub(super) const GROUPS: i64 = 7;
-
-/// The pairs of a group, as they were defined.
-pub(super) type Definition = Vec<Pair>;
-
-/// An active group.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Group {
-    pub number: u16,
-    /// One for each master.
-    pub couplings: Vec<Coupling>,
-    /// A reset has switched it off; its differences are still being cleared.
-    pub ending: bool,
-    /// What it is doing, for the chart.
-    pub phase: LinkPhase,
-}
 
 /// A refused command: the message, and its third and fourth parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -238,7 +222,7 @@ impl State {
         }
         let rows = &mut self.log.taken.0;
         for group in channel.groups.iter_mut().filter(|group| ends(group)) {
-            Self::note_group(&mut rows[super::charts::LINK], group, why);
+            Self::note_group(&mut rows[super::phases::LINK], group, why);
         }
         channel.groups.retain(|group| !ends(group));
         // The group before it counts as the last one that was switched on.

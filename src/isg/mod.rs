@@ -7,14 +7,14 @@
 //! | `configuration.rs`, `parameters.rs` | from lists to axes and channels, in the units of the model |
 //! | `hli.rs` | the interface to the PLC, as bytes |
 //! | `cnc.rs` | the control behind the interface, and the order of a cycle |
-//! | `gantry.rs` | hard gantry: combinations, monitoring, clearing of differences |
-//! | `links.rs` | soft gantry: coupling groups |
+//! | `gantry.rs`, `combination.rs` | hard gantry: combinations, monitoring, clearing of differences |
+//! | `links.rs`, `groups.rs` | soft gantry: coupling groups |
 //! | `homing.rs` | homing of axes and combinations |
 //! | `channel.rs`, `operation.rs`, `program.rs`, `exchange.rs` | a channel: start, reset, path, blocks, axis exchange |
 //! | `geometry.rs` | the pieces of a path |
 //! | `motion.rs` | setpoints and position control |
 //! | `messages.rs`, `pending.rs`, `rules.rs`, `texts.rs` | messages and causes |
-//! | `charts.rs` | the state machines as tables |
+//! | `phases.rs`, `charts.rs` | the state machines as tables |
 //! | `publish.rs` | the CNC's half of the interface, and variables |
 //!
 //! Both kinds of gantry are policies over [`motion::coupling`](crate::motion::coupling), as the grouping of the SINUMERIK is. This module knows
@@ -34,10 +34,12 @@
 mod channel;
 mod charts;
 mod cnc;
+mod combination;
 mod configuration;
 mod exchange;
 mod gantry;
 mod geometry;
+mod groups;
 pub mod hli;
 mod homing;
 pub mod language;
@@ -48,6 +50,7 @@ mod motion;
 mod operation;
 mod parameters;
 mod pending;
+mod phases;
 mod program;
 mod publish;
 mod rules;

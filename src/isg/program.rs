@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::channel::{Task, Wait};
-use super::homing::Job;
+use super::homing::job::Job;
 use super::language::{Block, Command, End, Environment, Fault, FaultCode, Prepared, Refusal, Variables, is_called};
 use super::links::Refused;
 use super::messages;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::channel::Channel;
-use super::gantry::Combination;
-use super::homing::Run;
+use super::combination::Combination;
+use super::homing::run::Run;
 use super::lists::Lists;
 use super::parameters::AxisParameters;
 use super::pending::Pending;

@@ -4,44 +4,19 @@
 //! edge of the cam, gives the reference. The axis then goes back to this place, so that it stands on its reference position. While an axis
 //! of a combination runs, it leads the others: nothing moves relative to anything.
 
-mod run;
+pub(super) mod job;
+pub(super) mod run;
 
-use serde::{Deserialize, Serialize};
+use job::{Chain, Job};
+use run::Run;
 
-pub(super) use run::{Run, STEPS, text};
-
-use super::charts;
 use super::messages;
 use super::pending::of_axis;
+use super::phases::HOMING;
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
-
-/// The axes that home one after the other, or at once: a combination, or one axis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Chain {
-    members: Vec<AxisNumber>,
-    /// How many members have ended.
-    ended: usize,
-    at_once: bool,
-}
-
-/// The homing of a G74 block.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Job {
-    /// The axes that wait, by their order.
-    waiting: Vec<(i64, AxisNumber)>,
-    running: Vec<Chain>,
-    cause: EventId,
-}
-
-impl Job {
-    pub(super) fn new(mut axes: Vec<(i64, AxisNumber)>, cause: EventId) -> Self {
-        axes.sort_by_key(|(order, _)| *order);
-        Self { waiting: axes, running: Vec::new(), cause }
-    }
-}
 
 impl State {
     /// One cycle of a G74 block; true when it has ended.
@@ -170,8 +145,7 @@ impl State {
             }
         };
         let rests = axis.setpoint.is_at_rest();
-        let (motion, changed) =
-            run.step(&homing, &axis.feedback, rests, axis.shift, &mut self.log.taken.0[charts::HOMING]);
+        let (motion, changed) = run.step(&homing, &axis.feedback, rests, axis.shift, &mut self.log.taken.0[HOMING]);
         if let Some(changed) = changed {
             let input = Input::Length(Quantity::Position, number, axis.actual());
             run.cause = self.log.note_one(Place::Axis(number), changed, input, run.cause);
@@ -192,7 +166,7 @@ impl State {
         if !arrived {
             return false;
         }
-        run.end(&mut self.log.taken.0[charts::HOMING]);
+        run.end(&mut self.log.taken.0[HOMING]);
         // The movement back was in the old reference.
         (axis.run, axis.motion) = (None, None);
         let event = self.log.note_plain(Place::Axis(number), Why::Homed, run.cause);

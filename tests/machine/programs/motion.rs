@@ -194,6 +194,8 @@ fn preset_of_the_operator_acts_on_the_leading_axis_at_standstill() {
     session.run("1cycles").unwrap();
     session.expect("alarm(22321) && X.setpoint < 6").unwrap();
     session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    session.set("DB11.DBX0.0", 0).unwrap();
+    session.set("DB11.DBX0.2", 1).unwrap();
     session.run("100ms").unwrap();
     session.preset("X", 7.0).unwrap();
     session.run("10ms").unwrap();

@@ -84,7 +84,7 @@ fn run(text: &str, lenient: bool) -> Result<(), TestCaseError> {
     prop_assert!(lines.is_sorted() && lines.windows(2).all(|pair| pair[0] < pair[1]));
     prop_assert!(found.iter().all(|finding| finding.fault.line > 0 && finding.fault.column > 0));
     let mut channel = Channel::new(&[("part.nc", text)]);
-    let mut interpreter = Interpreter::new("PART.NC.MPF", lenient);
+    let mut interpreter = Interpreter::new("PART.NC", lenient);
     for _ in 0..20 {
         let saved: Interpreter = postcard::from_bytes(&postcard::to_stdvec(&interpreter).unwrap()).unwrap();
         prop_assert_eq!(&saved, &interpreter);

@@ -106,7 +106,7 @@ fn control_blocks_are_nested_fifty_deep_at_most() {
 #[test]
 fn an_endless_loop_does_not_hold_the_channel() {
     let mut channel = Channel::new(&[("part.nc", "$WHILE 1\nP1=1\n$ENDWHILE")]);
-    let mut interpreter = Interpreter::new("PART.NC.MPF", false);
+    let mut interpreter = Interpreter::new("PART.NC", false);
     for _ in 0..3 {
         assert!(matches!(interpreter.next(&mut channel), Ok(Prepared::Calculated(_))));
     }

@@ -111,7 +111,7 @@ fn each_line_of_the_factor_example_gives_its_result() {
 #[test]
 fn the_factor_example_as_a_program_is_aborted_at_n60() {
     let mut channel = Channel::new(&[("part.nc", FACTORS)]);
-    let mut interpreter = Interpreter::new("PART.NC.MPF", true);
+    let mut interpreter = Interpreter::new("PART.NC", true);
     for number in [10, 20, 30, 40, 50] {
         let Ok(crate::isg::language::Prepared::Block(block)) = interpreter.next(&mut channel) else { panic!() };
         assert_eq!((block.origin.number, block.warnings.len()), (Some(number), 0));

@@ -97,7 +97,7 @@ fn variables_of_axis_coupling_are_read_and_never_written() {
         "part.nc",
         "N10 G1 X1\nN20 $IF V.G.AX_LINK.ACTIVE\nN30 #AX LINK OFF[V.G.AX_LINK.NR]\nN40 $ENDIF\n",
     )]);
-    let mut interpreter = Interpreter::new("PART.NC.MPF", false);
+    let mut interpreter = Interpreter::new("PART.NC", false);
     channel.is_executed = false;
     assert!(matches!(interpreter.next(&mut channel), Ok(Prepared::Block(_))));
     let waiting = interpreter.clone();

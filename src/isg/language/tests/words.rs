@@ -100,7 +100,7 @@ fn a_message_says_what_was_found_and_what_is_allowed() {
 #[test]
 fn nothing_of_a_faulty_block_is_executed_and_the_program_ends() {
     let mut channel = Channel::new(&[("part.nc", "P1=1\nP1=2 V.E.OUT=5 X=1/0\nG1 X1\n")]);
-    let mut interpreter = crate::isg::language::Interpreter::new("PART.NC.MPF", false);
+    let mut interpreter = crate::isg::language::Interpreter::new("PART.NC", false);
     let fault = interpreter.next(&mut channel).unwrap_err();
     assert_eq!((fault.line, interpreter.variable("P1"), channel.variables["V.E.OUT"]), (2, Some(1.0), 0.0));
     assert!(interpreter.has_ended());

@@ -52,6 +52,12 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         let active = look.state.programs[channel].modal.index(15) == 3;
         fact(format!("G95 is active in {}: feed per revolution", look.channel_name(channel)), active).into()
     }),
+    Row::new(channel_from_nck::handwheel_override_active, |look, channel| {
+        let overrides =
+            |axis: AxisNumber| look.state.axes[axis].by_handwheel.is_some_and(|one| one.is_active && !one.is_axial);
+        let active = look.state.owners.of_channel(channel).iter().any(overrides);
+        fact(format!("a handwheel overrides the path of {}", look.channel_name(channel)), active).into()
+    }),
     Row::new(channel_search_from_nck::associated_m0_m1_active, |look, channel| {
         let is_stopped = look.state.programs[channel].associated_stop;
         let what =

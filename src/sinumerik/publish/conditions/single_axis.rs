@@ -24,6 +24,11 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         fact(what, look.state.single.axes[axis].independence.stopped)
             .after(|| look.axis(axis, axis_to_nck::stop_along_braking_ramp, true))
     }),
+    Row::new(axis_from_nck::handwheel_override_active, |look, axis| {
+        let by_handwheel = look.state.axes[axis].by_handwheel.filter(|one| one.is_axial && one.is_active);
+        fact(format!("a handwheel overrides the positioning of {}", look.axis_name(axis)), by_handwheel.is_some())
+            .into()
+    }),
     Row::new(axis_from_nck::positioning_axis, |look, axis| {
         let what = format!("the PLC, a synchronised action, POS or POSA positions {}", look.axis_name(axis));
         fact(what, look.state.single.positioning.contains(axis)).into()
