@@ -13,7 +13,7 @@
 //! | `channel.rs`, `operation.rs`, `program.rs`, `exchange.rs` | a channel: start, reset, path, blocks, axis exchange |
 //! | `geometry.rs` | the pieces of a path |
 //! | `motion.rs` | setpoints and position control |
-//! | `messages.rs`, `pending.rs`, `rules.rs`, `texts.rs` | messages and causes |
+//! | `messages.rs`, `pending.rs`, `rules.rs`, `texts.rs`, `data.rs` | messages and causes |
 //! | `phases.rs`, `charts.rs` | the state machines as tables |
 //! | `publish.rs` | the CNC's half of the interface, and variables |
 //!
@@ -36,6 +36,7 @@ mod charts;
 mod cnc;
 mod combination;
 mod configuration;
+mod data;
 mod exchange;
 mod gantry;
 mod geometry;
