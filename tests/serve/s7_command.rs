@@ -370,7 +370,8 @@ fn the_recipe_of_the_pages_references_a_gantry() {
 fn the_client_commands_of_the_pages_work() {
     let served = Served::start();
     let mut count = 0;
-    for (path, page) in pages() {
+    // The page of the ISG kernel asks a machine of that control.
+    for (path, page) in pages().into_iter().filter(|(path, _)| !path.ends_with("docs/isg.md")) {
         let lines =
             page.lines().filter(|line| line.starts_with("opennck s7 ") && !line.starts_with("opennck s7 watch"));
         for line in lines {
