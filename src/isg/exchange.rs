@@ -4,15 +4,11 @@ use super::channel::Member;
 use super::language::{AxisReference, AxisRequest, Conflicts, GantryTargets, PutTargets};
 use super::links::Refused;
 use super::messages;
-use super::program::unknown;
+use super::program::{unknown, value};
 use super::rules::Why;
 use super::state::{AxesView, State};
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Parameter, Place, short_text};
-
-fn value(text: &str) -> Refused {
-    Refused(messages::NC_VALUE, Parameter::Text(short_text(text)), Parameter::None)
-}
 
 impl State {
     /// `#GANTRY ON` and `#GANTRY OFF`.
