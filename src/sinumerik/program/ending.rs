@@ -46,31 +46,47 @@ impl State {
         }
         let Some(block) = run.queue.front() else { return true };
         if block.ends_approach {
-            return block.criterion == Criterion::Interpolation || self.is_in_position(block.criterion, run, stage);
+            return self.is_in_position(block.criterion, run, stage);
         }
-        if block.way.is_none() || run.on_path == 0 {
-            return true;
-        }
-        if !run.path.stands() {
+        let Some(way) = block.way else { return true };
+        if run.on_path > 0 && !run.path.stands() {
             return false;
         }
-        if block.criterion != Criterion::Interpolation && !self.is_in_position(block.criterion, run, stage) {
+        // In G64 the path has ended because it could not pass into what follows: an exact stop, unless that is a motion that only came late.
+        // G603 lets the next motion begin at the end of interpolation.
+        let checks = way.exact_stop && block.criterion != Criterion::Interpolation;
+        if (checks || !self.passes_late(run, stage)) && !self.is_in_position(block.criterion, run, stage) {
             return false;
         }
-        run.path.go_on();
-        run.on_path -= 1;
+        if run.on_path > 0 {
+            run.path.go_on();
+            run.on_path -= 1;
+        }
         true
     }
 
-    /// Whether the axes of the path are within their exact stop windows.
+    /// Whether what follows the block that runs is a motion on the path that begins without standstill.
+    ///
+    /// Everything else behind a motion finds the axes at rest: auxiliary functions before or without motion, stops and the end of the program,
+    /// preprocessing stop, PRESETON, WAITM, the exchange of axes.
+    fn passes_late(&self, run: &Run, stage: &Stage<'_>) -> bool {
+        let (Some(block), Some(next)) = (run.queue.front(), run.queue.get(1)) else { return false };
+        run.can_pass(block, next) && !self.holds_block_change(run, stage)
+    }
+
+    /// Whether the axes of the path are at rest, and within the windows of an exact stop that has one.
     fn is_in_position(&self, criterion: Criterion, run: &Run, stage: &Stage<'_>) -> bool {
         let positioned = |axis| run.positionings.iter().any(|positioning| positioning.axis == axis);
         let own = |axis: &AxisNumber| self.owners.is_program_axis(*axis, stage.channel) && !positioned(*axis);
         stage.own.axes.path.iter().filter(|axis| own(axis)).all(|&number| {
             let axis = &self.axes[number];
             let set = axis.active_set(&stage.parameters.axes[number]);
-            let window = if criterion == Criterion::Coarse { set.exact_stop_coarse } else { set.exact_stop_fine };
-            axis.setpoint.is_at_rest() && axis.deviation().abs() <= window
+            let is_within = match criterion {
+                Criterion::Fine => axis.deviation().abs() <= set.exact_stop_fine,
+                Criterion::Coarse => axis.deviation().abs() <= set.exact_stop_coarse,
+                Criterion::Interpolation => true,
+            };
+            axis.setpoint.is_at_rest() && is_within
         })
     }
 
@@ -145,6 +161,21 @@ impl State {
             }
             self.programs[stage.channel].output.add(&package, run.block_cause, stage.own.quick_is_free);
         }
+    }
+}
+
+impl Run {
+    /// Whether the path can pass from one block to the next without standstill, whatever G64 and the interface say.
+    pub(super) fn can_pass(&self, last: &Executable, next: &Executable) -> bool {
+        let stops = last.by_handwheel
+            || last.end.is_some()
+            || last.stop != ProgrammedStop::None
+            || !last.positions.is_empty()
+            || !last.references.is_empty();
+        // SOFT and BRISK, and the kind of feed (G94, G95), change at standstill.
+        let switches = next.modal.index(21) != last.modal.index(21) || next.modal.index(15) != last.modal.index(15);
+        let is_target = self.search.as_ref().is_some_and(|search| search.is_target(&next.origin));
+        !stops && !switches && next.is_plain() && self.positionings.is_empty() && !is_target
     }
 }
 

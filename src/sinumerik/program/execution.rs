@@ -20,7 +20,6 @@ use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::programs::{ChangeTime, OutputTime};
 use crate::sinumerik::program::control::at_stop;
 use crate::sinumerik::program::environment::Channel;
-use crate::sinumerik::program::executable::ProgrammedStop;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::preparation::Preparing;
 use crate::sinumerik::program::state::{BlockAlarm, Phase, Preparation, ProgramState, Run, block_name, on_path};
@@ -117,10 +116,10 @@ impl State {
         }
         self.take_program_control(run, stage);
         self.delete_distance_to_go_of_path(run, stage);
+        self.run_actions(run, stage, sources);
         if runs && run.stopping.is_none() {
             self.hold_block_change(run, stage);
         }
-        self.run_actions(run, stage, sources);
         let ended = self.move_program(run, stage);
         self.take_command_axes(run, stage);
         self.end_approach(run, stage);
@@ -186,13 +185,13 @@ impl State {
         }
     }
 
-    /// Whether something holds the change to the next block: read-in disable, single block, NC stop at the block limit.
-    fn holds_block_change(&self, run: &Run, stage: &Stage<'_>) -> bool {
+    /// Whether something holds the change to the next block: read-in disable, also by RDISABLE, single block, NC stop at the block limit.
+    pub(super) fn holds_block_change(&self, run: &Run, stage: &Stage<'_>) -> bool {
         let signals = &stage.to_nck.channels[stage.channel];
         let single =
             signals.activate_single_block() && !run.queue.front().is_some_and(|one| one.origin.is_single_block_off);
-        let disabled = self.is_read_in_disabled(stage.channel, stage.to_nck) || signals.nc_stop_at_block_limit();
-        disabled || single || self.is_axis_wanted(stage.channel)
+        let disabled = self.is_read_in_disabled(stage.channel, stage.to_nck) || run.read_in_disabled;
+        disabled || signals.nc_stop_at_block_limit() || single || self.is_axis_wanted(stage.channel)
     }
 
     /// Stops the path at the end of its block while something holds the change to the next one.
@@ -219,12 +218,6 @@ impl State {
         while let (Some(last), Some(next)) = (run.queue.get(run.on_path - 1), run.queue.get(run.on_path)) {
             // The first block has output what it has; those behind it have not begun.
             let outputs = if run.on_path == 1 { busy } else { last.has_outputs() };
-            let stops = last.way.is_none_or(|block| block.exact_stop)
-                || last.by_handwheel
-                || last.end.is_some()
-                || last.stop != ProgrammedStop::None
-                || !last.positions.is_empty()
-                || !last.references.is_empty();
             // A fulfilled WAITMC behind the block that runs does not stop the path.
             if run.on_path == 1
                 && next.is_only_action()
@@ -234,12 +227,7 @@ impl State {
                 run.executed += 1;
                 continue;
             }
-            let stops = stops || next.modal.index(21) != last.modal.index(21);
-            let stops = stops || last.modal.index(15) != next.modal.index(15);
-            if outputs || stops || !next.is_plain() || !run.positionings.is_empty() {
-                return;
-            }
-            if run.search.as_ref().is_some_and(|search| search.is_target(&next.origin)) {
+            if outputs || last.way.is_none_or(|block| block.exact_stop) || !run.can_pass(last, next) {
                 return;
             }
             let Some(mut block) = next.way else { return };
