@@ -37,6 +37,7 @@ macro_rules! messages {
 messages! {
     DWELL_TWICE = 20013, "", 2, "Channel %1 block %2: dwell time both directly and with an axis";
     HOMING_WITH_GROUP = 20137, "", 2, "Channel %1: homing is not possible while coupling group %2 is active";
+    PERCENT_IN_MAIN_PROGRAM = 20193, "", 2, "Channel %1 block %2: percent sign in the main program";
     CONTROL_DEPTH = 20211, "", 2, "Channel %1 block %2: control blocks are nested too deeply";
     GROUP_0_NUMBER = 20438, "", 1, "Channel %1, %2: the number 0 is no axis; the pair of coupling group 0 is skipped";
     GROUP_0_SELF = 20440, "", 1, "Channel %1, %2: axis %3 is its own master; the pair of coupling group 0 is skipped";
@@ -63,6 +64,7 @@ messages! {
     ALREADY_SLAVE = 21283, "", 2, "Channel %1 block %2: slave %3 is a slave of another active group, group %4";
     SLAVE_IS_MASTER = 21284, "", 2, "Channel %1 block %2: slave %3 is a master of another active group, group %4";
     MASTER_IS_SLAVE = 21285, "", 2, "Channel %1 block %2: master %3 is a slave of another active group, group %4";
+    PERCENT_IN_SUBROUTINE = 21313, "", 2, "Channel %1 block %2: percent sign in a global subroutine";
     SLAVE_IS_MAIN_SPINDLE = 21347, "", 2, "Channel %1: the slave of a spindle pair is the main spindle";
     COMPENSATED_WHILE_COUPLED = 21403, "", 2, "Channel %1: the compensation of axis %2 was changed while it is coupled";
     MASTER_INDEPENDENT = 21481, "", 2, "Channel %1: axis %2, the master of an active coupling group, was programmed as independent axis";
@@ -125,4 +127,16 @@ pub(super) fn name(number: AlarmNumber) -> String {
 pub(super) fn named(name: &str) -> Option<AlarmNumber> {
     let own = ROWS.iter().find(|row| row.name == name && !row.name.is_empty()).map(|row| row.number);
     own.or_else(|| lists::parameter(name).map(|(parameter, _)| of_parameter(parameter.number())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_number_of_the_language_has_a_row() {
+        for (number, meaning) in crate::isg::language::NUMBERS {
+            assert!(row(AlarmNumber(number)).is_some(), "{number}: {meaning}");
+        }
+    }
 }

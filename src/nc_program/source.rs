@@ -34,7 +34,8 @@ pub struct Program {
 const LARGEST: usize = u32::MAX as usize;
 
 impl Program {
-    /// A program from the bytes of a file: UTF-8, else Latin-1. Line feeds end a line; a carriage return before one does not count.
+    /// A program from the bytes of a file: UTF-8, else Latin-1. Line feeds end a line, and so does a carriage return that stands
+    /// alone; before a line feed it does not count.
     ///
     /// `folder` is where the file lies: subprograms are searched there first.
     #[must_use]
@@ -216,6 +217,12 @@ fn decoded(mut bytes: Vec<u8>) -> String {
     if bytes.starts_with(b"\xEF\xBB\xBF") {
         bytes.drain(..3);
     }
+    for at in 0..bytes.len() {
+        // Before a line feed a carriage return belongs to it, however many there are.
+        if bytes[at] == b'\r' && bytes[at..].iter().find(|byte| **byte != b'\r') != Some(&b'\n') {
+            bytes[at] = b'\n';
+        }
+    }
     String::from_utf8(bytes).unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| char::from(byte)).collect())
 }
 
@@ -324,6 +331,12 @@ mod tests {
 
     fn lines(program: &Program) -> Vec<&str> {
         (1..=program.count()).filter_map(|line| program.line(line)).collect()
+    }
+
+    #[test]
+    fn a_carriage_return_alone_ends_a_line() {
+        let program = Program::new("part", ProgramKind::Main, "", b"N10 X1 ;first\rN20 X2\r\nN30 X3\r\r\nM30\r");
+        assert_eq!(lines(&program), ["N10 X1 ;first", "N20 X2", "N30 X3", "M30"]);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::nc_program::{Program, normalised};
 use super::compose::{Composed, compose, compose_command};
 use super::fault::{Error, Fault, FaultCode};
 use super::head::{Header, Target, head, header};
-use super::interpreter::{fault, fault_in, hidden};
+use super::interpreter::{fault, fault_in, hidden, percent};
 use super::lines::Line;
 use super::parse::content;
 use super::scope::{Scope, Store, is_read_only};
@@ -38,6 +38,7 @@ pub fn check(program: &Program, others: &[Arc<Program>], lenient: bool) -> Vec<F
         subroutines: text.subroutines(),
         labels: BTreeMap::new(),
         is_subroutine: false,
+        has_ended: false,
         open: Vec::new(),
         findings: Vec::new(),
     };
@@ -74,6 +75,8 @@ struct Checker<'a> {
     /// Labels of the section (main program or subroutine), with the lines of the loops around them.
     labels: BTreeMap<Target, Vec<u32>>,
     is_subroutine: bool,
+    /// The section has a block that ends the program or the subroutine.
+    has_ended: bool,
     open: Vec<Opened>,
     findings: Vec<Finding>,
 }
@@ -102,6 +105,7 @@ impl<'a> Checker<'a> {
     fn enter(&mut self, section: u32, is_subroutine: bool) {
         self.unclosed();
         self.is_subroutine = is_subroutine;
+        self.has_ended = false;
         self.labels.clear();
         let labels = &mut self.labels;
         self.text.each_label(section, &mut |label, _, open| {
@@ -123,8 +127,10 @@ impl<'a> Checker<'a> {
             return Ok(());
         }
         if let Some(header) = header(&line.text)? {
+            let is_main_running = self.main != 0 && line.line >= self.main && !self.is_subroutine && !self.has_ended;
             self.enter(line.next, matches!(header, Header::Subroutine(_)));
-            return Ok(());
+            // A main program that has not ended reaches this line.
+            return if is_main_running { Err(percent(false, line.indent())) } else { Ok(()) };
         }
         let head = head(&line.text)?;
         *block = head.number;
@@ -156,8 +162,9 @@ impl<'a> Checker<'a> {
         self.composed(composed, at, warnings)
     }
 
-    fn composed(&self, composed: Composed, at: usize, warnings: &mut Vec<Error>) -> Result<(), Error> {
+    fn composed(&mut self, composed: Composed, at: usize, warnings: &mut Vec<Error>) -> Result<(), Error> {
         warnings.extend(composed.warnings);
+        self.has_ended |= composed.block.end.is_some();
         if self.is_subroutine
             && let Some(function) = composed.block.m.iter().find(|function| matches!(function, 2 | 30))
         {

@@ -61,6 +61,9 @@ fn before<'a>(start: Cursor<'a>, end: &Cursor<'a>) -> &'a str {
 
 fn named(start: Cursor<'_>, cursor: &mut Cursor<'_>, lenient: bool) -> Result<HashCommand, Error> {
     let unknown = || {
+        if let Some(text) = known_elsewhere(start) {
+            return Error::syntax(start.at(), text);
+        }
         let text = format!(
             "{} is not a command that OpenNCK has; there are #SET AX LINK, #AX LINK [NBR], #ENABLE and #DISABLE AX LINK, #AX LINK ON, OFF and OFF ALL, \
              #GANTRY ON and OFF, #CALL AX, #PUT AX, #AX REQUEST, #AX RELEASE, #TIME, #COMMENT BEGIN and END, all in capitals",
@@ -95,6 +98,26 @@ fn named(start: Cursor<'_>, cursor: &mut Cursor<'_>, lenient: bool) -> Result<Ha
         "TIME" => value(cursor).map(HashCommand::Time),
         _ => Err(unknown()),
     }
+}
+
+/// Commands that OpenNCK has, but not in this place or form.
+fn known_elsewhere(start: Cursor<'_>) -> Option<&'static str> {
+    let rest = start.rest();
+    if rest.starts_with("#COMMENT") {
+        return Some(
+            "#COMMENT BEGIN and #COMMENT END stand alone in their line, with one blank before BEGIN or END; a block number may stand before them",
+        );
+    }
+    if rest.starts_with("#VAR") || rest.starts_with("#ENDVAR") {
+        return Some(
+            "#VAR and #ENDVAR stand alone in their line; between them only assignments are modelled, `V.P.NAME = 2`",
+        );
+    }
+    let is_one_word = ["#AXLINK", "#SET AXLINK", "#ENABLE AXLINK", "#DISABLE AXLINK"];
+    is_one_word
+        .iter()
+        .any(|command| rest.starts_with(command))
+        .then_some("AX LINK is written in two words: `#DISABLE AX LINK[1]`")
 }
 
 /// G201 and G202 with their axes; `#` is next.

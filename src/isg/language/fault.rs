@@ -22,8 +22,9 @@ pub enum FaultCode {
 }
 
 /// The published numbers that the language can report, with their meaning. 20685 and 21111 are warnings.
-pub const NUMBERS: [(u32, &str); 11] = [
+pub const NUMBERS: [(u32, &str); 13] = [
     (DWELL_TWICE, "dwell time both directly and with an axis"),
+    (PERCENT_IN_MAIN_PROGRAM, "percent sign in the main program"),
     (CONTROL_DEPTH, "control blocks nested too deeply"),
     (SLAVE_IS_MASTER, "slave axis equals its master axis"),
     (SLAVE_TWICE, "slave axis listed twice"),
@@ -33,10 +34,12 @@ pub const NUMBERS: [(u32, &str); 11] = [
     (NUMERATOR, "numerator of the coupling factor is 0"),
     (NO_DENOMINATOR, "denominator of the coupling factor is missing"),
     (FACTOR, "coupling factor is not -1 or 1, set to 1"),
+    (PERCENT_IN_GLOBAL_SUBROUTINE, "percent sign in a global subroutine"),
     (BEHIND_CALL, "NC commands behind a subroutine call"),
 ];
 
 pub(super) const DWELL_TWICE: u32 = 20013;
+pub(super) const PERCENT_IN_MAIN_PROGRAM: u32 = 20193;
 pub(super) const CONTROL_DEPTH: u32 = 20211;
 pub(super) const SLAVE_IS_MASTER: u32 = 20475;
 pub(super) const SLAVE_TWICE: u32 = 20476;
@@ -46,6 +49,7 @@ pub(super) const JUMP_TARGET: u32 = 20839;
 pub(super) const NUMERATOR: u32 = 21077;
 pub(super) const NO_DENOMINATOR: u32 = 21110;
 pub(super) const FACTOR: u32 = 21111;
+pub(super) const PERCENT_IN_GLOBAL_SUBROUTINE: u32 = 21313;
 pub(super) const BEHIND_CALL: u32 = 21542;
 
 impl fmt::Display for FaultCode {

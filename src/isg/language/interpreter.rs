@@ -6,7 +6,7 @@ use crate::nc_program::{Program, normalised};
 
 use super::block::{End, Origin};
 use super::compose::{Composed, compose, compose_command};
-use super::fault::{Error, Fault, FaultCode};
+use super::fault::{Error, Fault, FaultCode, PERCENT_IN_GLOBAL_SUBROUTINE, PERCENT_IN_MAIN_PROGRAM};
 use super::head::{Head, Target, head, header};
 use super::lines::Line;
 use super::parse::content;
@@ -111,8 +111,13 @@ impl Interpreter {
             return Ok(Step::Next);
         }
         if header(&line.text)?.is_some() {
-            self.leave();
-            return Ok(Step::Next);
+            return match self.levels.as_slice() {
+                [.., level] if level.is_local => {
+                    self.leave();
+                    Ok(Step::Next)
+                }
+                levels => Err(percent(levels.len() > 1, line.indent())),
+            };
         }
         let head = head(&line.text)?;
         *block = head.number;
@@ -271,12 +276,12 @@ impl Interpreter {
             let section = text.subroutine(name).ok_or_else(|| {
                 error(format!("the file has no local subroutine `%L {name}`; a subroutine in a file of its own is called with `L {name}`"))
             })?;
-            return Ok(Level::new(work.program.path(), section));
+            return Ok(Level::local(work.program.path(), section));
         }
         let program: Arc<Program> = environment.find_program(&normalised(name)).ok_or_else(|| {
             error(format!("there is no program {name}; a local subroutine of this file is called with `LL {name}`"))
         })?;
-        Ok(Level::new(program.path(), 0))
+        Ok(Level::main(program.path()))
     }
 
     /// The line of a label, and the control blocks that are open there.
@@ -332,6 +337,14 @@ impl Open {
     }
 }
 
+/// A `%` in a main program that is being executed.
+pub(super) fn percent(is_called: bool, at: usize) -> Error {
+    let number = if is_called { PERCENT_IN_GLOBAL_SUBROUTINE } else { PERCENT_IN_MAIN_PROGRAM };
+    let text = "`%` in a main program; it begins with the first line that is neither empty nor a comment, subroutines (`%L NAME`) stand before it, \
+                and M30 ends it";
+    Error::new(FaultCode::Number(number), at, text)
+}
+
 /// `#COMMENT BEGIN`: the line behind the `#COMMENT END`.
 pub(super) fn hidden(line: &Line<'_>) -> Result<Option<u32>, Error> {
     if let Some(cursor) = line.ends_comment() {
@@ -364,7 +377,7 @@ fn origin(work: &Work<'_>, head: &Head) -> Origin {
 
 /// The message of an error in a block.
 pub(super) fn fault(program: &Program, line: &Line<'_>, block: Option<u32>, error: Error) -> Fault {
-    let at = if error.at == 0 { line.text.len() - line.text.trim_start().len() } else { error.at };
+    let at = if error.at == 0 { line.indent() } else { error.at };
     let (number, column) = line.place(at);
     Fault { code: error.code, program: program.path(), block, line: number, column, text: error.text }
 }

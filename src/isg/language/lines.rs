@@ -1,6 +1,7 @@
 //! Lines of a program as the language reads them: comments are blanks, `\` at the end continues a line.
 //!
-//! `( … )` and `;` begin comments; an unclosed `(` ends with its line. With `lenient` the text is read as the manuals print it: an unclosed
+//! `( … )` and `;` begin comments; each further `(` in a comment needs a `)` of its own, and an unclosed comment ends with its line. A block
+//! number at the beginning of a continued line means nothing. With `lenient` the text is read as the manuals print it: an unclosed
 //! `(` reaches over further lines if one of them closes it, `#` before a blank begins a comment, and `)` alone means nothing.
 
 use std::borrow::Cow;
@@ -49,6 +50,7 @@ impl<'a> Line<'a> {
                 return Some(block);
             };
             let Some(raw) = program.line(next) else { return Some(block) };
+            let is_continued = from == 0;
             // One blank between the lines, so that words of two lines stay two words.
             let mut joined = block.text.into_owned();
             joined.push(' ');
@@ -56,6 +58,9 @@ impl<'a> Line<'a> {
             block.text = Cow::Owned(joined);
             block.next = next.saturating_add(1);
             (text, is_open) = without_comments(raw, from, lenient);
+            if is_continued {
+                text = without_number(text);
+            }
         }
     }
 
@@ -66,6 +71,11 @@ impl<'a> Line<'a> {
         let raw = self.program.line(line).unwrap_or_default();
         let column = raw.char_indices().take_while(|(byte, _)| *byte < at - start.min(at)).count() + 1;
         (line, u32::try_from(column).unwrap_or(u32::MAX))
+    }
+
+    /// The byte at which something stands.
+    pub(super) fn indent(&self) -> usize {
+        self.text.len() - self.text.trim_start().len()
     }
 
     /// The text of the first line as it was written.
@@ -81,6 +91,11 @@ impl<'a> Line<'a> {
     /// The line is `#COMMENT END`, perhaps with something behind it.
     pub(super) fn ends_comment(&self) -> Option<Cursor<'_>> {
         comment_mark(&self.text, "END")
+    }
+
+    /// The line is `#COMMENT BEGIN` or `#COMMENT END`.
+    pub(super) fn is_comment(&self) -> bool {
+        self.begins_comment().is_some() || self.ends_comment().is_some()
     }
 
     /// The line of the `#COMMENT END` that belongs to this `#COMMENT BEGIN`, and whether something stands behind it.
@@ -122,10 +137,38 @@ impl<'a> Iterator for Lines<'a> {
 fn comment_mark<'a>(text: &'a str, word: &str) -> Option<Cursor<'a>> {
     let mut cursor = Cursor::new(text, 0);
     cursor.skip_blanks();
-    if cursor.eat("N") {
+    if cursor.rest().strip_prefix('N').is_some_and(|rest| rest.starts_with(|next: char| next.is_ascii_digit())) {
+        cursor.step();
         cursor.digits();
     }
-    (cursor.eat("#COMMENT") && cursor.eat_word(word)).then_some(cursor)
+    let is_comment = cursor.eat("#COMMENT") && cursor.peek().is_some_and(char::is_whitespace);
+    (is_comment && cursor.eat_word(word)).then_some(cursor)
+}
+
+/// The text of a continued line with blanks for its block number.
+fn without_number(text: Cow<'_, str>) -> Cow<'_, str> {
+    let start = text.len() - text.trim_start().len();
+    let digits = |rest: &str| rest.bytes().take_while(u8::is_ascii_digit).count();
+    let count = text[start..].strip_prefix(['N', 'n']).map_or(0, digits);
+    if count == 0 {
+        return text;
+    }
+    let mut text = text.into_owned();
+    text.replace_range(start..=start + count, &" ".repeat(count + 1));
+    Cow::Owned(text)
+}
+
+/// The byte behind the `)` that closes the comment at the beginning of a text.
+fn closed(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    text.bytes().enumerate().find_map(|(at, byte)| {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            _ => {}
+        }
+        (depth == 0).then_some(at + 1)
+    })
 }
 
 /// The text with blanks for comments, and whether a comment is not closed. Everything before `from` is a comment.
@@ -142,9 +185,9 @@ fn without_comments(raw: &str, from: usize, lenient: bool) -> (Cow<'_, str>, boo
                 '"' => is_quoted = !is_quoted,
                 _ if is_quoted => {}
                 '(' => {
-                    let end = rest.find(')');
+                    let end = closed(rest);
                     is_open = end.is_none();
-                    hidden_to = end.map_or(raw.len(), |end| at + end + 1);
+                    hidden_to = end.map_or(raw.len(), |end| at + end);
                 }
                 ';' => hidden_to = raw.len(),
                 ')' if lenient => hidden_to = at + 1,

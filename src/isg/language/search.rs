@@ -100,7 +100,7 @@ impl<'a> Text<'a> {
 
     /// The first line of the main program.
     ///
-    /// Text before the first `%` is the main program, else `%NAME` begins it. With `lenient` it may follow the `M17` of the last subroutine;
+    /// Text before the first `%` is the main program, a block number alone included, else `%NAME` begins it. With `lenient` it may follow the `M17` of the last subroutine;
     /// without, those lines belong to the subroutine.
     ///
     /// # Errors
@@ -112,7 +112,7 @@ impl<'a> Text<'a> {
                 Err(error) => return Err((line.line, error)),
                 Ok(Some(Header::Main)) => return Ok(line.next),
                 Ok(Some(Header::Subroutine(_))) => last_subroutine = Some((line.line, line.next)),
-                Ok(None) if last_subroutine.is_none() && !self.is_empty(&line) => return Ok(1),
+                Ok(None) if last_subroutine.is_none() && self.begins_main(&line) => return Ok(1),
                 Ok(None) => {}
             }
         }
@@ -133,8 +133,13 @@ impl<'a> Text<'a> {
         Err((header_line, Error::syntax(0, text)))
     }
 
+    /// Whether a line before the first `%` begins a main program without a header (diagnosis 20193); with `lenient` a block must be in it.
+    fn begins_main(self, line: &Line<'_>) -> bool {
+        !self.is_empty(line) || !self.lenient && !line.is_comment() && !line.text.trim().is_empty()
+    }
+
     fn is_empty(self, line: &Line<'_>) -> bool {
-        if line.begins_comment().is_some() || line.ends_comment().is_some() {
+        if line.is_comment() {
             return true;
         }
         let rest = head(&line.text).map_or(&*line.text, |head| &line.text[head.rest..]).trim();

@@ -26,6 +26,8 @@ pub(super) struct Level {
     pub(super) section: u32,
     /// The line that is read next.
     pub(super) line: u32,
+    /// A subroutine of its file (`LL`), which the next header line ends; a `%` in a main program is an error.
+    pub(super) is_local: bool,
     /// `V.L.` variables.
     pub(super) variables: Store,
     /// Open control blocks, the innermost one last.
@@ -51,8 +53,14 @@ pub(super) struct Open {
 }
 
 impl Level {
-    pub(super) fn new(program: String, section: u32) -> Self {
-        Self { program, section, line: section, variables: Store::new(), open: Vec::new() }
+    /// The main program of a file; where it begins is searched first.
+    pub(super) fn main(program: String) -> Self {
+        Self { program, section: 0, line: 0, is_local: false, variables: Store::new(), open: Vec::new() }
+    }
+
+    /// A local subroutine that begins at a line.
+    pub(super) fn local(program: String, section: u32) -> Self {
+        Self { section, line: section, is_local: true, ..Self::main(program) }
     }
 }
 
@@ -73,7 +81,7 @@ impl Interpreter {
     /// A program at its first block. `path` is the [`Program::path`](crate::nc_program::Program::path).
     #[must_use]
     pub fn new(path: &str, lenient: bool) -> Self {
-        Self { lenient, levels: vec![Level::new(path.to_owned(), 0)], variables: Store::new() }
+        Self { lenient, levels: vec![Level::main(path.to_owned())], variables: Store::new() }
     }
 
     /// Whether the program has ended.

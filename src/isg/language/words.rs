@@ -62,7 +62,13 @@ fn word(cursor: &mut Cursor<'_>) -> Result<WordKind, Error> {
     if let Some(place) = place(cursor)? {
         if !cursor.eat("=") {
             cursor.skip_blanks();
-            let text = format!("expected `=` behind {}, found {}", place.name, cursor.found());
+            let text = match cursor.peek() {
+                Some(':') => format!(
+                    "the declaration of a type ({}: REAL64) is not modelled; assign a value, `{} = 2`",
+                    place.name, place.name
+                ),
+                Some(_) | None => format!("expected `=` behind {}, found {}", place.name, cursor.found()),
+            };
             return Err(Error::syntax(cursor.at(), text));
         }
         return Ok(WordKind::Assign(place, expression(cursor)?));
@@ -163,11 +169,9 @@ fn call<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<Wo
     if name.is_empty() {
         return Err(Error::syntax(at, format!("expected the name of a subroutine, found {}", cursor.found())));
     }
-    if name == "CYCLE" && letters == 1 {
-        return Err(Error::syntax(
-            start.at(),
-            "calls of cycles (L CYCLE) are not modelled; call the subroutine with L",
-        ));
+    if name == "CYCLE" && (letters == 1 || cursor.eat("[")) {
+        let text = "calls of cycles (L CYCLE and LL CYCLE) are not modelled; call the subroutine with L or LL";
+        return Err(Error::syntax(start.at(), text));
     }
     Ok(WordKind::Call { name: name.to_owned(), is_local: letters == 2 })
 }

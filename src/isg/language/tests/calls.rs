@@ -14,8 +14,28 @@ fn local_subroutines_stand_before_or_behind_the_main_program() {
     // UP2 ends with the next header; N50 and N60 only call.
     assert_eq!(order(&[("part.nc", before)]), [40, 10, 20, 30, 10, 20, 70]);
     assert_eq!(order(&[("part.nc", "#COMMENT BEGIN\nX1\n#COMMENT END\n%L UP\nX1\n%MAIN\nN10 X1")]), [10]);
-    let behind = "N40 LL UP1\nN50 X5\n%L UP1\nN10 X1\nN20 M29\nN25 X2";
-    assert_eq!(order(&[("part.nc", behind)]), [10, 20, 50]);
+    let behind = "N40 LL UP1\nN50 X5\nN60 M30\n%L UP1\nN10 X1\nN20 M29\nN25 X2";
+    assert_eq!(order(&[("part.nc", behind)]), [10, 20, 50, 60]);
+}
+
+/// Diagnosis 20193 and 21313: `%` marks names of programs, and a main program that is being executed has none in it.
+#[test]
+fn a_main_program_that_reaches_a_percent_sign_is_aborted() {
+    for (text, line) in [
+        ("%MAIN\nN10 G0 X0\nN20 X1\n%L SUB1\nN30 X2", 4),
+        ("%A\nN10 X1\n%B\nN20 X2", 3),
+        ("N10 X1\n  %L UP\nM17\n%MAIN\nM30", 2),
+        // A block number before the first % begins a main program.
+        ("N10 (comment)\n%L UP1\nM17\n%MAIN\nN20 X1", 2),
+    ] {
+        let (code, number, column, _) = fault(text);
+        assert_eq!((code.as_str(), number), ("20193", line), "{text}");
+        assert_eq!(column, if line == 2 && text.contains("  %") { 3 } else { 1 });
+    }
+    let files = [("part.nc", "N10 L SUB\nN20 M30"), ("sub.nc", "N30 X1\n%L UP\nM17")];
+    assert_eq!(Channel::new(&files).run(false).unwrap_err().code.to_string(), "21313");
+    // What is never reached is no error.
+    assert_eq!(order(&[("part.nc", "(text)\n\n%A\nN10 X1\nN20 M30\n%B\nN30 X2")]), [10, 20]);
 }
 
 #[test]
@@ -35,7 +55,11 @@ fn global_subroutines_are_files_with_subroutines_of_their_own() {
 fn a_call_is_the_last_word_of_its_block() {
     assert_eq!(order(&[("part.nc", "N10 X1 LL UP\nN20 M30\n%L UP\nN30 X2")]), [10, 30, 20]);
     assert_eq!(code("N10 LL UP X1"), ("21542".to_owned(), 11));
-    assert_eq!(code("N10 L CYCLE [1]").0, "nc-syntax");
+    for call in ["L CYCLE", "L CYCLE [1]", "LL CYCLE [NAME=UP @P1=2]"] {
+        let (code, _, column, text) = fault(&format!("N10 {call}"));
+        assert_eq!((code.as_str(), column), ("nc-syntax", 5));
+        assert!(text.starts_with("calls of cycles"), "{text}");
+    }
 }
 
 #[test]

@@ -212,11 +212,23 @@ fn g201_names_its_axes() {
 
 #[test]
 fn unknown_commands_are_refused_by_name() {
-    for line in ["#SAVE CONFIG", "#LOAD CONFIG [AXLINK]", "#DISABLE AXLINK", "#FOO", "#AX", "#AX LINKS ON"] {
+    for line in ["#SAVE CONFIG", "#LOAD CONFIG [AXLINK]", "#FOO", "#AX", "#AX LINKS ON"] {
         let (code, number, column, text) = fault(line);
         assert_eq!((code.as_str(), number, column), ("nc-syntax", 1, 1), "{line}");
         assert!(text.starts_with(&format!("`{}`", line.split(' ').next().unwrap())), "{text}");
     }
+    // What is known, but not in this form or place, is no unknown command.
+    for (line, column, wanted) in [
+        ("#DISABLE AXLINK", 1, "AX LINK is written in two words"),
+        ("X1 #COMMENT BEGIN", 4, "#COMMENT BEGIN and #COMMENT END stand alone"),
+        ("#VAR X", 1, "#VAR and #ENDVAR stand alone"),
+    ] {
+        let (code, number, found, text) = fault(line);
+        assert_eq!((code.as_str(), number, found), ("nc-syntax", 1, column), "{line}");
+        assert!(text.starts_with(wanted), "{text}");
+    }
+    let (_, _, _, text) = fault("#VAR\nV.P.A : REAL64 = 2\n#ENDVAR");
+    assert!(text.starts_with("the declaration of a type"), "{text}");
     let lenient = Channel::new(&[("part.nc", "#DISABLE AXLINK")]).run(true).unwrap();
     assert_eq!(lenient[0].command, Some(Command::LinkOff(LinkOff::Last)));
 }

@@ -15,6 +15,16 @@ fn comments_hide_what_is_in_them() {
     assert_eq!(blocks("G01(no word ends here)X1").len(), 1);
 }
 
+/// PROG, comments: `N300 (comment (nested comment))`.
+#[test]
+fn a_comment_in_a_comment_has_its_own_end() {
+    assert_eq!(order("N10 X1\nN300 (comment (nested comment))\nN20 X2"), [10, 20]);
+    for text in ["N10 G0 X1 (was (old) Y1=9)", "N10 G0 X1 (was (old) Y1=9", "N10 G0 X1 ((a) (b (c)) Y1=9)"] {
+        assert_eq!(blocks(text).remove(0).axes.len(), 1, "{text}");
+    }
+    assert_eq!(blocks("N10 G0 X1 ((a) (b (c))) Y1=9").remove(0).axes.len(), 2);
+}
+
 #[test]
 fn a_comment_block_hides_lines_up_to_its_end() {
     assert_eq!(order("N10 X1\n#COMMENT BEGIN\nN20 X\n#COMMENT END\nN30 X1"), [10, 30]);
@@ -23,6 +33,9 @@ fn a_comment_block_hides_lines_up_to_its_end() {
         ("X1\n#COMMENT END", 2),
         ("#COMMENT BEGIN X1\n#COMMENT END", 1),
         ("#COMMENT BEGIN\n#COMMENT END X1", 1),
+        // Text commands have blanks between their words, and a block number has digits.
+        ("#COMMENTBEGIN\nX1\n#COMMENT END", 1),
+        ("N #COMMENT BEGIN\nX1\n#COMMENT END", 1),
     ] {
         let (code, number, ..) = fault(text);
         assert_eq!((code.as_str(), number), ("nc-syntax", line), "{text}");
@@ -33,6 +46,9 @@ fn a_comment_block_hides_lines_up_to_its_end() {
 fn a_backslash_continues_the_line_and_places_are_those_of_the_file() {
     let block = blocks("N10 G1 \\\n  X1 \\ (first)\n  Y2 F\\\n100\nN20").remove(0);
     assert_eq!((block.axes.len(), block.feed, block.origin.line), (2, Some(100.0), 1));
+    // PROG, continued lines: the block number in them means nothing.
+    let block = blocks("N10 G1 F1000 \\\nN20 X100 \\\n n30Y150\nN40 X1").remove(0);
+    assert_eq!((block.origin.block(), block.axes.len()), (10, 2));
     let (code, line, column, _) = fault("N10 G1 \\\n  X1 \\\n  YY2 F100");
     assert_eq!((code.as_str(), line, column), ("nc-syntax", 3, 3));
     assert_eq!(super::code("(µ°) XX"), ("nc-syntax".to_owned(), 6));
