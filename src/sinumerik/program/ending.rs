@@ -5,7 +5,7 @@ use crate::nc_program::{Action, End};
 use crate::sinumerik::inputs::channel_signal;
 use crate::sinumerik::parameters::programs::OutputTime;
 use crate::sinumerik::program::executable::{Criterion, Executable, ProgrammedStop};
-use crate::sinumerik::program::execution::Progress;
+use crate::sinumerik::program::execution::BlockProgress;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::{Phase, Run, block_name};
 use crate::sinumerik::rules::Rule;
@@ -82,10 +82,10 @@ impl State {
     }
 
     /// The block is over: the program stops, ends, or goes on.
-    pub(super) fn end_block(&mut self, run: &mut Run, stage: &Stage<'_>) -> Progress {
+    pub(super) fn end_block(&mut self, run: &mut Run, stage: &Stage<'_>) -> BlockProgress {
         let channel = stage.channel;
         let place = Place::Channel(channel);
-        let Some(block) = run.take_executed() else { return Progress::Waits };
+        let Some(block) = run.take_executed() else { return BlockProgress::Waits };
         run.phase = Phase::Between;
         self.release_axes(&block, (channel, stage.own), run.block_cause, stage.parameters);
         // The path stands: what it would have passed into begins again when nothing holds it.
@@ -96,17 +96,17 @@ impl State {
         let input = Input::Block(block_name(&block.origin.name));
         if let Some(alarm) = run.cycle_alarm.take() {
             self.raise_block_alarm(alarm, run, stage);
-            return Progress::Changed;
+            return BlockProgress::Changed;
         }
         if block.end == Some(End::Program) && run.search.is_some() {
             self.target_is_missing(run, stage);
-            return Progress::Changed;
+            return BlockProgress::Changed;
         }
         if block.end == Some(End::Program) {
             let event = self.log.note_one(place, Rule::ProgramEnded, input, run.block_cause);
             self.end_spindle_functions(channel, stage.parameters, event);
             self.end_program(channel, stage.own, event, true);
-            return Progress::Ended;
+            return BlockProgress::Ended;
         }
         let associated = stage.to_nck.program_control[channel].activate_associated_m0_m1();
         let programmed = match block.stop {
@@ -133,7 +133,7 @@ impl State {
             let event = self.log.note(place, Rule::SingleBlock, [single, input, Input::None], run.block_cause);
             self.stop_program(channel, event);
         }
-        Progress::Changed
+        BlockProgress::Changed
     }
 
     /// Outputs the auxiliary functions of the block that runs which have this time; with MD20800 bit 1 M1 only while it stops.
