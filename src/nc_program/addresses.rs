@@ -3,8 +3,9 @@
 use super::alarm::{Fault, Span};
 use super::composer::{Composer, UNKNOWN};
 use super::expression::Expression;
+use super::functions::g;
 use super::names::{AxisIndex, AxisKind};
-use super::prepared::{Action, AuxiliaryFunction, AuxiliaryKind, AxisWord, Centre, Dimension, End};
+use super::prepared::{Action, AuxiliaryFunction, AuxiliaryKind, AxisWord, Centre, Dimension, End, predefined_group};
 use super::syntax::{Address, AddressWord, Modifier};
 use super::value::Value;
 
@@ -143,7 +144,7 @@ impl Composer<'_> {
         Ok(AxisWord { axis, value, dimension })
     }
 
-    /// DC needs a rotary axis, ACP and ACN a modulo axis, and all three a position in its range.
+    /// DC needs a rotary axis, ACP and ACN a modulo axis. Every absolute position of a modulo axis is in its range, unless MD30455 allows others.
     #[expect(
         clippy::manual_range_contains,
         reason = "a value that a check does not know is not a number, and no error"
@@ -153,7 +154,10 @@ impl Composer<'_> {
         let Some(row) = axes.row(axis) else { return Ok(()) };
         let wrong = |number: u32, reason: &str| Err(Fault::new(number, at, reason).about(row.name.clone()));
         match (dimension, row.kind) {
-            (Dimension::Absolute | Dimension::Incremental, _) | (_, AxisKind::Any) => return Ok(()),
+            (Dimension::Incremental, _) | (_, AxisKind::Any) => return Ok(()),
+            (Dimension::Absolute, AxisKind::Linear | AxisKind::Rotary) => return Ok(()),
+            // An offset or a limit is no position, and the value beside G74 is not used.
+            (Dimension::Absolute, AxisKind::Modulo) if !self.is_motion() => return Ok(()),
             (Dimension::Shortest, AxisKind::Linear) => return wrong(16800, "the axis is linear"),
             (Dimension::FromPlus, AxisKind::Linear | AxisKind::Rotary) => {
                 return wrong(16810, "the axis is not modulo");
@@ -162,12 +166,20 @@ impl Composer<'_> {
                 return wrong(16820, "the axis is not modulo");
             }
             (Dimension::Shortest, AxisKind::Rotary) => return Ok(()),
-            (Dimension::Shortest | Dimension::FromPlus | Dimension::FromMinus, AxisKind::Modulo) => {}
+            (
+                Dimension::Absolute | Dimension::Shortest | Dimension::FromPlus | Dimension::FromMinus,
+                AxisKind::Modulo,
+            ) => {}
         }
         if !row.is_beyond_modulo && (value < 0.0 || value >= 360.0) {
             return wrong(16830, "the range is 0 to 359.999");
         }
         Ok(())
+    }
+
+    /// Whether axis words of the block are positions to move to.
+    fn is_motion(&self) -> bool {
+        ![g::TRANS, g::ATRANS, g::G25, g::G26, g::G74].into_iter().any(|function| self.has_function(function))
     }
 
     fn centre(&mut self, index: usize, word: &AddressWord) -> Result<(), Fault> {
@@ -241,27 +253,8 @@ impl Composer<'_> {
         if kind == AuxiliaryKind::T && matches!(self.term(&word.value)?.value, Value::Text(_)) {
             return Err(Fault::refused(word.at, "the name of a tool (tool management)"));
         }
-        let is_real = matches!(kind, AuxiliaryKind::S | AuxiliaryKind::H | AuxiliaryKind::SumOffset);
-        let value = if is_real {
-            self.number(&word.value, word.at)?
-        } else {
-            let value = self.number(&word.value, word.at)?;
-            if value.fract() != 0.0 && !value.is_nan() {
-                return Err(Fault::new(12560, word.at, format!("{value} is no whole number")));
-            }
-            value
-        };
-        let (least, most) = match kind {
-            AuxiliaryKind::M => (0.0, f64::from(i32::MAX)),
-            AuxiliaryKind::T => (0.0, 65_535.0),
-            AuxiliaryKind::S | AuxiliaryKind::SumOffset => (0.0, f64::INFINITY),
-            AuxiliaryKind::D => (0.0, 255.0),
-            AuxiliaryKind::H | AuxiliaryKind::F => (f64::NEG_INFINITY, f64::INFINITY),
-        };
-        if value < least || value > most {
-            let number = if kind == AuxiliaryKind::D { 17180 } else { 12560 };
-            return Err(Fault::new(number, word.at, format!("{value} is outside {least} to {most}")));
-        }
+        let value = self.number(&word.value, word.at)?;
+        judged_value(kind, value).map_err(|(number, reason)| Fault::new(number, word.at, reason))?;
         // Several M and H of a block are common; the others stand once for each extension.
         if !matches!(kind, AuxiliaryKind::M | AuxiliaryKind::H) {
             self.once(row.address, extension, word.at)?;
@@ -291,10 +284,10 @@ impl Composer<'_> {
             return Err(Fault::new(14750, at, format!("a block has at most {MOST_AUXILIARY}")));
         }
         if function.kind == AuxiliaryKind::M {
-            let group = group(function.value);
+            let group = predefined_group(function.value);
             let same = |other: &&AuxiliaryFunction| {
                 other.kind == AuxiliaryKind::M
-                    && self::group(other.value) == group
+                    && predefined_group(other.value) == group
                     && (group == Some(1) || other.extension == function.extension)
             };
             if let (Some(group), Some(_)) = (group, self.done.auxiliary.iter().find(same)) {
@@ -349,6 +342,26 @@ impl Composer<'_> {
     }
 }
 
+/// Whether an auxiliary function can have a value: the number of its alarm and the reason if not. M, T and D are whole numbers.
+pub(super) fn judged_value(kind: AuxiliaryKind, value: f64) -> Result<(), (u32, String)> {
+    let is_real = matches!(kind, AuxiliaryKind::S | AuxiliaryKind::H | AuxiliaryKind::SumOffset | AuxiliaryKind::F);
+    if !is_real && value.fract() != 0.0 && !value.is_nan() {
+        return Err((12560, format!("{value} is no whole number")));
+    }
+    let (least, most) = match kind {
+        AuxiliaryKind::M => (0.0, f64::from(i32::MAX)),
+        AuxiliaryKind::T => (0.0, 65_535.0),
+        AuxiliaryKind::S | AuxiliaryKind::SumOffset => (0.0, f64::INFINITY),
+        AuxiliaryKind::D => (0.0, 255.0),
+        AuxiliaryKind::H | AuxiliaryKind::F => (f64::NEG_INFINITY, f64::INFINITY),
+    };
+    if value < least || value > most {
+        let number = if kind == AuxiliaryKind::D { 17180 } else { 12560 };
+        return Err((number, format!("{value} is outside {least} to {most}")));
+    }
+    Ok(())
+}
+
 /// The dimension of a position. QU belongs to auxiliary functions.
 pub(super) fn dimension(modifier: Modifier, at: Span) -> Result<Dimension, Fault> {
     match modifier {
@@ -381,18 +394,4 @@ fn percent(value: f64, at: Span) -> Result<f64, Fault> {
 
 fn output(kind: AuxiliaryKind, extension: Option<u16>, value: f64) -> AuxiliaryFunction {
     AuxiliaryFunction { kind, extension, axis: None, value, is_quick: false }
-}
-
-/// The group of an M function: stop and end, spindle, gear stage.
-fn group(m: f64) -> Option<u8> {
-    let has = |numbers: &[f64]| numbers.contains(&m);
-    if has(&[0.0, 1.0, 2.0, 17.0, 30.0]) {
-        Some(1)
-    } else if has(&[3.0, 4.0, 5.0, 19.0, 70.0]) {
-        Some(2)
-    } else if has(&[40.0, 41.0, 42.0, 43.0, 44.0, 45.0]) {
-        Some(4)
-    } else {
-        None
-    }
 }

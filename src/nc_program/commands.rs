@@ -1,6 +1,6 @@
 //! Commands of a block, and synchronised actions.
 
-use super::addresses::dimension;
+use super::addresses::{dimension, judged_value};
 use super::alarm::{Fault, Span};
 use super::composer::{Composer, UNKNOWN};
 use super::condition::{Condition, MainRunValue};
@@ -59,6 +59,8 @@ impl Composer<'_> {
             Command::CouplingOff => self.coupling(CouplingKind::Synchronous, false, arguments, at)?,
             Command::ElectronicGearOn => self.coupling(CouplingKind::ElectronicGear, true, arguments, at)?,
             Command::ElectronicGearOff => self.coupling(CouplingKind::ElectronicGear, false, arguments, at)?,
+            Command::FeedGroup if arguments.is_empty() => Action::FeedGroup(Vec::new()),
+            Command::FeedGroup => Action::FeedGroup(self.axes(arguments, at)?),
             Command::SetMark => {
                 self.separated(at)?;
                 Action::SetMarks(self.some_numbers(arguments, MARKS, at)?)
@@ -305,6 +307,11 @@ impl Composer<'_> {
             Some(extension) => Some(self.limited(extension, (0, 99), 12560, word.at)?),
             None => None,
         };
+        // What the program knows already is judged as in a block; the rest when the action is executed.
+        if value.is_constant() {
+            let known = self.number(&word.value, word.at)?;
+            judged_value(kind, known).map_err(|(number, reason)| Fault::new(number, word.at, reason))?;
+        }
         Ok(MainRunAction::Auxiliary { kind, extension, value })
     }
 }

@@ -3,8 +3,8 @@
 use super::alarm::{Fault, Span};
 use super::composer::{Before, Composed, Composer, UNKNOWN};
 use super::evaluate::Scope;
-use super::functions::{GFunction, g, name};
-use super::names::AxisIndex;
+use super::functions::{GFunction, INCH, g, groups, name};
+use super::names::{AxisIndex, AxisKind};
 use super::prepared::{Action, AuxiliaryKind, AxisWord};
 use super::syntax::{Address, Word};
 
@@ -61,7 +61,7 @@ fn indirect(
 }
 
 /// Groups of functions that define the syntax of their block.
-const SYNTAX: [u8; 2] = [2, 3];
+const SYNTAX: [u8; 2] = [groups::WAITS, groups::OFFSETS];
 
 impl Composer<'_> {
     fn function(&mut self, function: GFunction, at: Span) -> Result<(), Fault> {
@@ -93,7 +93,7 @@ impl Composer<'_> {
                 found.map_or(Ok(()), |word| Err(Fault::new(number, word.at(), "this does not fit the G function")))
             };
             match (function.group, *function) {
-                (4, _) => misfit(&|_| false, 12120)?,
+                (groups::BUFFER, _) => misfit(&|_| false, 12120)?,
                 (_, g::G25 | g::G26) => misfit(&|word| is_axis(word) || is(word, &Address::S), 12120)?,
                 // Programs of real controls have M functions beside G4.
                 (_, g::G4) => misfit(&|word| is(word, &Address::F) || is_output(word), 12110)?,
@@ -166,12 +166,16 @@ impl Composer<'_> {
         Ok(())
     }
 
-    /// TRANS replaces the offset, ATRANS adds to it.
+    /// TRANS replaces the offset, ATRANS adds to it. Both are lengths: what G70 and G71 say where they are programmed decides, and not what holds later.
     fn offset(&mut self) {
         if self.has_function(g::TRANS) {
             self.done.offset.clear();
         }
+        let in_inches = self.done.modal.is_inch();
         for AxisWord { axis, value, .. } in std::mem::take(&mut self.done.axes) {
+            let is_rotary =
+                self.scope.axes().row(axis).is_some_and(|row| matches!(row.kind, AxisKind::Rotary | AxisKind::Modulo));
+            let value = if in_inches && !is_rotary { value * INCH } else { value };
             match self.done.offset.iter_mut().find(|(other, _)| *other == axis) {
                 Some((_, offset)) => *offset += value,
                 None => self.done.offset.push((axis, value)),
@@ -182,13 +186,13 @@ impl Composer<'_> {
     fn circle(&mut self) -> Result<(), Fault> {
         let Some(at) = self.circle_at else { return Ok(()) };
         if !self.done.modal.is(g::G2) && !self.done.modal.is(g::G3) {
-            let number = if self.has_group(1) { 12110 } else { 15460 };
+            let number = if self.has_group(groups::MOTION) { 12110 } else { 15460 };
             return Err(Fault::new(number, at, "I, J, K, CR, AR and TURN belong to G2 and G3"));
         }
         let circle = &self.done.circle;
         let has_centre = circle.centre.iter().any(Option::is_some);
         if circle.radius.is_some() && (has_centre || circle.opening_angle.is_some()) {
-            let number = if self.has_group(1) { 12110 } else { 15460 };
+            let number = if self.has_group(groups::MOTION) { 12110 } else { 15460 };
             return Err(Fault::new(number, at, "CR cannot be combined with I, J, K or AR"));
         }
         Ok(())
@@ -208,7 +212,7 @@ impl Composer<'_> {
                 }
                 None => {
                     let is_path = !self.done.axes.is_empty() || self.circle_at.is_some();
-                    is_path && !self.done.modal.is(g::G0) && self.done.modal.index(15) == 2 && self.new_feed.is_none()
+                    is_path && !self.done.modal.is(g::G0) && self.done.modal.is(g::G94) && self.new_feed.is_none()
                 }
             };
             if !fits {
@@ -222,7 +226,7 @@ impl Composer<'_> {
 
     /// F, and whether a path has one. A change between G94 and G95 needs a new F.
     fn path_feed(&mut self, at: Span) -> Result<(), Fault> {
-        if self.done.modal.index(15) != self.before.modal.index(15) {
+        if !self.done.modal.agrees(&self.before.modal, groups::FEED) {
             self.done.feed = None;
         }
         if let Some(feed) = self.new_feed {

@@ -3,11 +3,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::addresses::judged_value;
 use super::alarm::{Fault, Span};
-use super::environment::{Environment, Refusal, SystemVariable};
+use super::environment::{Environment, SystemVariable, VariableRefusal};
 use super::evaluate::{Scope, Term, evaluate};
 use super::expression::Expression;
 use super::names::AxisNames;
+use super::prepared::AuxiliaryKind;
 use super::value::{Type, Value, integer};
 
 /// A condition.
@@ -37,6 +39,20 @@ impl MainRunValue {
     /// The number of the alarm of the expression.
     pub fn number(&self, environment: &dyn Environment) -> Result<f64, u32> {
         value(&self.0, environment)?.number().ok_or(12150)
+    }
+
+    /// The number of an auxiliary function now.
+    ///
+    /// # Errors
+    /// The number of the alarm of the expression, or of a value that the function cannot have.
+    pub fn auxiliary(&self, kind: AuxiliaryKind, environment: &dyn Environment) -> Result<f64, u32> {
+        let number = self.number(environment)?;
+        judged_value(kind, number).map(|()| number).map_err(|(alarm, _)| alarm)
+    }
+
+    /// Whether it has the same value whenever it is evaluated.
+    pub(super) fn is_constant(&self) -> bool {
+        matches!(self.0, Expression::Constant(_))
     }
 
     /// The value now.
@@ -96,8 +112,8 @@ pub(super) fn read_system(
 }
 
 /// The error of a system variable that cannot be read or written.
-pub(super) fn refused(refusal: Refusal, name: &str, at: Span) -> Fault {
-    if refusal == Refusal::NotModelled {
+pub(super) fn refused(refusal: VariableRefusal, name: &str, at: Span) -> Fault {
+    if refusal == VariableRefusal::NotModelled {
         return Fault::refused(at, "this system variable").about(name);
     }
     Fault::new(refusal.number(), at, refusal.reason()).about(name)

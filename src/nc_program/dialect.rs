@@ -135,7 +135,6 @@ const REFUSED: &[(&str, &str)] = &[
     ("FAD", SPEEDS),
     ("FB", SPEEDS),
     ("FGREF", SPEEDS),
-    ("FGROUP", SPEEDS),
     ("FL", SPEEDS),
     ("FTOCOF", OVERLAYS),
     ("FTOCON", OVERLAYS),

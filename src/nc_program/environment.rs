@@ -18,7 +18,7 @@ pub struct SystemVariable<'a> {
 
 /// Why a system variable cannot be read or written. Each has its alarm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
+pub enum VariableRefusal {
     /// There is no variable of this name: 12550.
     Unknown,
     /// OpenNCK does not have this variable, the control does: 12553.
@@ -43,7 +43,7 @@ pub enum Refusal {
     WrongType,
 }
 
-impl Refusal {
+impl VariableRefusal {
     /// The number of its alarm.
     #[must_use]
     pub fn number(self) -> u32 {
@@ -100,13 +100,13 @@ pub trait Environment {
     ///
     /// # Errors
     /// The variable is unknown, or this cannot be read.
-    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, Refusal>;
+    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, VariableRefusal>;
 
     /// Writes a system variable.
     ///
     /// # Errors
     /// The variable is unknown, or the value is not allowed. Nothing is written then.
-    fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), Refusal>;
+    fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), VariableRefusal>;
 
     /// Whether everything that was prepared has been executed. A block that must not run ahead waits for this.
     fn is_executed(&self) -> bool;

@@ -75,18 +75,7 @@ impl Interpreter {
                 Ok(next)
             }
             Statement::EndLoop => self.innermost(StructureKind::Loop).map(|structure| structure.line.saturating_add(1)),
-            Statement::For { variable, from, to, at } => {
-                self.room(work)?;
-                let first = self.number(from, *at, work, environment)?;
-                let last = self.number(to, *at, work, environment)?;
-                let end = if first > last { Some(end_of(StructureKind::For, false, work.line, work)?) } else { None };
-                self.write(variable, Value::Real(first), *at, work, environment)?;
-                if let Some((line, _)) = end {
-                    return Ok(line.saturating_add(1));
-                }
-                self.open(StructureKind::For, last, work);
-                Ok(next)
-            }
+            Statement::For { variable, from, to, at } => self.begin_for(variable, (from, to), *at, work, environment),
             Statement::EndFor => self.end_for(work, environment),
             Statement::Case { selector, cases, default, at } => {
                 let selected = self.value(selector, work, environment)?;
@@ -96,10 +85,7 @@ impl Interpreter {
                         return self.jump(jump, work, environment);
                     }
                 }
-                match default {
-                    Some(jump) => self.jump(jump, work, environment),
-                    None => Ok(next),
-                }
+                default.as_ref().map_or(Ok(next), |jump| self.jump(jump, work, environment))
             }
             Statement::Jump(jump) => self.jump(jump, work, environment),
             Statement::RepeatPart(part) => self.repeat_part(part, work, environment),
@@ -112,6 +98,27 @@ impl Interpreter {
             | Statement::Assign(_)
             | Statement::Words(_) => Ok(next),
         }
+    }
+
+    /// FOR: the first pass begins, or the program goes on behind ENDFOR.
+    fn begin_for(
+        &mut self,
+        variable: &Expression,
+        (from, to): (&Expression, &Expression),
+        at: Span,
+        work: &Work<'_>,
+        environment: &mut dyn Environment,
+    ) -> Result<u32, Fault> {
+        self.room(work)?;
+        let first = self.number(from, at, work, environment)?;
+        let last = self.number(to, at, work, environment)?;
+        let end = if first > last { Some(end_of(StructureKind::For, false, work.line, work)?) } else { None };
+        self.write(variable, Value::Real(first), at, work, environment)?;
+        if let Some((line, _)) = end {
+            return Ok(line.saturating_add(1));
+        }
+        self.open(StructureKind::For, last, work);
+        Ok(work.line.saturating_add(1))
     }
 
     fn holds(&self, condition: &Expression, work: &Work<'_>, environment: &dyn Environment) -> Result<bool, Fault> {

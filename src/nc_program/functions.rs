@@ -23,32 +23,148 @@ impl GFunction {
     }
 }
 
-/// G functions that the interpreter itself tests.
+/// The G groups: DB21.DBB207 + group shows the active function of each.
+pub mod groups {
+    /// How the path moves: G0, G1, G2, G3.
+    pub const MOTION: u8 = 1;
+    /// Dwell and reference point approach: G4, G74.
+    pub const WAITS: u8 = 2;
+    /// Programmable offsets and limits: TRANS, ATRANS, G25, G26.
+    pub const OFFSETS: u8 = 3;
+    /// The buffer of prepared blocks: STARTFIFO, STOPFIFO, FIFOCTRL.
+    pub const BUFFER: u8 = 4;
+    /// The plane: G17, G18, G19.
+    pub const PLANE: u8 = 6;
+    /// Tool radius compensation: G40.
+    pub const TOOL_RADIUS: u8 = 7;
+    /// Settable offsets: G500, G54 to G57, G505 to G599.
+    pub const SETTABLE_OFFSET: u8 = 8;
+    /// Blocks without offsets: G53, SUPA, G153.
+    pub const SUPPRESSION: u8 = 9;
+    /// Exact stop and continuous path: G60, G64 to G645.
+    pub const EXACT_STOP: u8 = 10;
+    /// Exact stop in one block: G9.
+    pub const EXACT_STOP_ONCE: u8 = 11;
+    /// When an exact stop is reached: G601, G602, G603.
+    pub const CRITERION: u8 = 12;
+    /// Inch and metric: G70, G71, G700, G710.
+    pub const UNIT: u8 = 13;
+    /// Absolute and incremental: G90, G91.
+    pub const DIMENSION: u8 = 14;
+    /// What a feed refers to: G94, G95.
+    pub const FEED: u8 = 15;
+    /// Acceleration: BRISK, SOFT.
+    pub const ACCELERATION: u8 = 21;
+    /// Feed-forward: FFWOF, FFWON.
+    pub const FEED_FORWARD: u8 = 24;
+    /// Working area limitation: WALIMON, WALIMOF.
+    pub const WORKING_AREA: u8 = 28;
+}
+
+/// The G functions.
 pub mod g {
-    use super::GFunction;
+    use super::{GFunction, groups};
 
     /// Rapid traverse.
-    pub const G0: GFunction = GFunction::new(1, 1);
+    pub const G0: GFunction = GFunction::new(groups::MOTION, 1);
     /// Straight line.
-    pub const G1: GFunction = GFunction::new(1, 2);
+    pub const G1: GFunction = GFunction::new(groups::MOTION, 2);
     /// Circle clockwise.
-    pub const G2: GFunction = GFunction::new(1, 3);
+    pub const G2: GFunction = GFunction::new(groups::MOTION, 3);
     /// Circle counterclockwise.
-    pub const G3: GFunction = GFunction::new(1, 4);
+    pub const G3: GFunction = GFunction::new(groups::MOTION, 4);
     /// Dwell.
-    pub const G4: GFunction = GFunction::new(2, 1);
+    pub const G4: GFunction = GFunction::new(groups::WAITS, 1);
     /// Reference point approach.
-    pub const G74: GFunction = GFunction::new(2, 3);
+    pub const G74: GFunction = GFunction::new(groups::WAITS, 3);
     /// Programmable offset, replaces.
-    pub const TRANS: GFunction = GFunction::new(3, 1);
+    pub const TRANS: GFunction = GFunction::new(groups::OFFSETS, 1);
     /// Programmable offset, adds.
-    pub const ATRANS: GFunction = GFunction::new(3, 5);
+    pub const ATRANS: GFunction = GFunction::new(groups::OFFSETS, 5);
     /// Working area limit minus.
-    pub const G25: GFunction = GFunction::new(3, 10);
+    pub const G25: GFunction = GFunction::new(groups::OFFSETS, 10);
     /// Working area limit plus.
-    pub const G26: GFunction = GFunction::new(3, 11);
+    pub const G26: GFunction = GFunction::new(groups::OFFSETS, 11);
+    /// Preparation goes on.
+    pub const STARTFIFO: GFunction = GFunction::new(groups::BUFFER, 1);
+    /// The buffer is filled before the path moves.
+    pub const STOPFIFO: GFunction = GFunction::new(groups::BUFFER, 2);
+    /// The control decides.
+    pub const FIFOCTRL: GFunction = GFunction::new(groups::BUFFER, 3);
+    /// Plane of the first and the second geometry axis.
+    pub const G17: GFunction = GFunction::new(groups::PLANE, 1);
+    /// Plane of the third and the first geometry axis.
+    pub const G18: GFunction = GFunction::new(groups::PLANE, 2);
+    /// Plane of the second and the third geometry axis.
+    pub const G19: GFunction = GFunction::new(groups::PLANE, 3);
+    /// No tool radius compensation.
+    pub const G40: GFunction = GFunction::new(groups::TOOL_RADIUS, 1);
+    /// No settable offset.
+    pub const G500: GFunction = GFunction::new(groups::SETTABLE_OFFSET, 1);
+    /// First settable offset.
+    pub const G54: GFunction = GFunction::new(groups::SETTABLE_OFFSET, 2);
+    /// Second settable offset.
+    pub const G55: GFunction = GFunction::new(groups::SETTABLE_OFFSET, 3);
+    /// Third settable offset.
+    pub const G56: GFunction = GFunction::new(groups::SETTABLE_OFFSET, 4);
+    /// Fourth settable offset.
+    pub const G57: GFunction = GFunction::new(groups::SETTABLE_OFFSET, 5);
+    /// No offsets in this block.
+    pub const G53: GFunction = GFunction::new(groups::SUPPRESSION, 1);
+    /// Neither offsets nor overlays in this block.
+    pub const SUPA: GFunction = GFunction::new(groups::SUPPRESSION, 2);
+    /// No offsets and no base frames in this block.
+    pub const G153: GFunction = GFunction::new(groups::SUPPRESSION, 3);
+    /// Exact stop.
+    pub const G60: GFunction = GFunction::new(groups::EXACT_STOP, 1);
+    /// Continuous path.
+    pub const G64: GFunction = GFunction::new(groups::EXACT_STOP, 2);
+    /// Continuous path with rounding.
+    pub const G641: GFunction = GFunction::new(groups::EXACT_STOP, 3);
+    /// Continuous path with rounding.
+    pub const G642: GFunction = GFunction::new(groups::EXACT_STOP, 4);
+    /// Continuous path with rounding.
+    pub const G643: GFunction = GFunction::new(groups::EXACT_STOP, 5);
+    /// Continuous path with rounding.
+    pub const G644: GFunction = GFunction::new(groups::EXACT_STOP, 6);
+    /// Continuous path with rounding.
+    pub const G645: GFunction = GFunction::new(groups::EXACT_STOP, 7);
+    /// Exact stop in this block.
+    pub const G9: GFunction = GFunction::new(groups::EXACT_STOP_ONCE, 1);
+    /// Exact stop fine.
+    pub const G601: GFunction = GFunction::new(groups::CRITERION, 1);
+    /// Exact stop coarse.
+    pub const G602: GFunction = GFunction::new(groups::CRITERION, 2);
+    /// End of interpolation.
+    pub const G603: GFunction = GFunction::new(groups::CRITERION, 3);
+    /// Lengths in inches.
+    pub const G70: GFunction = GFunction::new(groups::UNIT, 1);
+    /// Lengths in millimetres.
+    pub const G71: GFunction = GFunction::new(groups::UNIT, 2);
+    /// Lengths and feeds in inches.
+    pub const G700: GFunction = GFunction::new(groups::UNIT, 3);
+    /// Lengths and feeds in millimetres.
+    pub const G710: GFunction = GFunction::new(groups::UNIT, 4);
+    /// Absolute dimensions.
+    pub const G90: GFunction = GFunction::new(groups::DIMENSION, 1);
     /// Incremental dimensions.
-    pub const G91: GFunction = GFunction::new(14, 2);
+    pub const G91: GFunction = GFunction::new(groups::DIMENSION, 2);
+    /// Feed for each minute.
+    pub const G94: GFunction = GFunction::new(groups::FEED, 2);
+    /// Feed for each revolution of the master spindle.
+    pub const G95: GFunction = GFunction::new(groups::FEED, 3);
+    /// Acceleration without limitation of the jerk.
+    pub const BRISK: GFunction = GFunction::new(groups::ACCELERATION, 1);
+    /// Acceleration with limited jerk.
+    pub const SOFT: GFunction = GFunction::new(groups::ACCELERATION, 2);
+    /// No feed-forward.
+    pub const FFWOF: GFunction = GFunction::new(groups::FEED_FORWARD, 1);
+    /// Feed-forward.
+    pub const FFWON: GFunction = GFunction::new(groups::FEED_FORWARD, 2);
+    /// Working area limitation on.
+    pub const WALIMON: GFunction = GFunction::new(groups::WORKING_AREA, 1);
+    /// Working area limitation off.
+    pub const WALIMOF: GFunction = GFunction::new(groups::WORKING_AREA, 2);
 }
 
 /// Names, with group and index.
@@ -63,56 +179,73 @@ pub(super) const FUNCTIONS: &[(&str, GFunction)] = &[
     ("ATRANS", g::ATRANS),
     ("G25", g::G25),
     ("G26", g::G26),
-    ("STARTFIFO", GFunction::new(4, 1)),
-    ("STOPFIFO", GFunction::new(4, 2)),
-    ("FIFOCTRL", GFunction::new(4, 3)),
-    ("G17", GFunction::new(6, 1)),
-    ("G18", GFunction::new(6, 2)),
-    ("G19", GFunction::new(6, 3)),
-    ("G40", GFunction::new(7, 1)),
-    ("G500", GFunction::new(8, 1)),
-    ("G54", GFunction::new(8, 2)),
-    ("G55", GFunction::new(8, 3)),
-    ("G56", GFunction::new(8, 4)),
-    ("G57", GFunction::new(8, 5)),
-    ("G53", GFunction::new(9, 1)),
-    ("SUPA", GFunction::new(9, 2)),
-    ("G153", GFunction::new(9, 3)),
-    ("G60", GFunction::new(10, 1)),
-    ("G64", GFunction::new(10, 2)),
-    ("G641", GFunction::new(10, 3)),
-    ("G642", GFunction::new(10, 4)),
-    ("G643", GFunction::new(10, 5)),
-    ("G644", GFunction::new(10, 6)),
-    ("G645", GFunction::new(10, 7)),
-    ("G9", GFunction::new(11, 1)),
-    ("G601", GFunction::new(12, 1)),
-    ("G602", GFunction::new(12, 2)),
-    ("G603", GFunction::new(12, 3)),
-    ("G70", GFunction::new(13, 1)),
-    ("G71", GFunction::new(13, 2)),
-    ("G700", GFunction::new(13, 3)),
-    ("G710", GFunction::new(13, 4)),
-    ("G90", GFunction::new(14, 1)),
+    ("STARTFIFO", g::STARTFIFO),
+    ("STOPFIFO", g::STOPFIFO),
+    ("FIFOCTRL", g::FIFOCTRL),
+    ("G17", g::G17),
+    ("G18", g::G18),
+    ("G19", g::G19),
+    ("G40", g::G40),
+    ("G500", g::G500),
+    ("G54", g::G54),
+    ("G55", g::G55),
+    ("G56", g::G56),
+    ("G57", g::G57),
+    ("G53", g::G53),
+    ("SUPA", g::SUPA),
+    ("G153", g::G153),
+    ("G60", g::G60),
+    ("G64", g::G64),
+    ("G641", g::G641),
+    ("G642", g::G642),
+    ("G643", g::G643),
+    ("G644", g::G644),
+    ("G645", g::G645),
+    ("G9", g::G9),
+    ("G601", g::G601),
+    ("G602", g::G602),
+    ("G603", g::G603),
+    ("G70", g::G70),
+    ("G71", g::G71),
+    ("G700", g::G700),
+    ("G710", g::G710),
+    ("G90", g::G90),
     ("G91", g::G91),
-    ("G94", GFunction::new(15, 2)),
-    ("G95", GFunction::new(15, 3)),
-    ("BRISK", GFunction::new(21, 1)),
-    ("SOFT", GFunction::new(21, 2)),
-    ("FFWOF", GFunction::new(24, 1)),
-    ("FFWON", GFunction::new(24, 2)),
-    ("WALIMON", GFunction::new(28, 1)),
-    ("WALIMOF", GFunction::new(28, 2)),
+    ("G94", g::G94),
+    ("G95", g::G95),
+    ("BRISK", g::BRISK),
+    ("SOFT", g::SOFT),
+    ("FFWOF", g::FFWOF),
+    ("FFWON", g::FFWON),
+    ("WALIMON", g::WALIMON),
+    ("WALIMOF", g::WALIMOF),
 ];
 
 /// The modal groups, and what holds after power on.
-const MODAL: [(u8, u8); 13] =
-    [(1, 2), (4, 1), (6, 1), (7, 1), (8, 1), (10, 1), (12, 1), (13, 2), (14, 1), (15, 2), (21, 1), (24, 1), (28, 1)];
+const MODAL: [GFunction; 13] = [
+    g::G1,
+    g::STARTFIFO,
+    g::G17,
+    g::G40,
+    g::G500,
+    g::G60,
+    g::G601,
+    g::G71,
+    g::G90,
+    g::G94,
+    g::BRISK,
+    g::FFWOF,
+    g::WALIMON,
+];
 
 /// The settable offsets G505 to G599 follow G57 in group 8.
 pub(super) fn settable_offset(number: u32) -> Option<GFunction> {
     let index = number.checked_sub(505)?.checked_add(6)?;
-    (505..=599).contains(&number).then(|| u8::try_from(index).ok()).flatten().map(|index| GFunction::new(8, index))
+    (505..=599)
+        .contains(&number)
+        .then(|| u8::try_from(index).ok())
+        .flatten()
+        .map(|index| GFunction::new(groups::SETTABLE_OFFSET, index))
 }
 
 /// The name of a G function, as programs write it.
@@ -121,7 +254,7 @@ pub fn name(function: GFunction) -> Option<String> {
     let row = FUNCTIONS.iter().find(|(_, row)| *row == function);
     match row {
         Some((name, _)) => Some((*name).to_owned()),
-        None if function.group == 8 && (6..=100).contains(&function.index) => {
+        None if function.group == groups::SETTABLE_OFFSET && (6..=100).contains(&function.index) => {
             Some(format!("G{}", u32::from(function.index) + 499))
         }
         None => None,
@@ -129,8 +262,11 @@ pub fn name(function: GFunction) -> Option<String> {
 }
 
 fn slot(group: u8) -> Option<usize> {
-    MODAL.iter().position(|(row, _)| *row == group)
+    MODAL.iter().position(|row| row.group == group)
 }
+
+/// Millimetres in an inch.
+pub const INCH: f64 = 25.4;
 
 /// The active function of each modal G group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -141,7 +277,7 @@ pub struct Modal {
 impl Default for Modal {
     /// The reset values of the table; MD20150 of a machine may have others: [`Modal::set`].
     fn default() -> Self {
-        Self { active: MODAL.map(|(_, index)| index) }
+        Self { active: MODAL.map(|function| function.index) }
     }
 }
 
@@ -158,6 +294,24 @@ impl Modal {
         function.index != 0 && self.index(function.group) == function.index
     }
 
+    /// Whether lengths are in inches: G70 and G700.
+    #[must_use]
+    pub fn is_inch(&self) -> bool {
+        self.is(g::G70) || self.is(g::G700)
+    }
+
+    /// Whether a group has the same function in both.
+    #[must_use]
+    pub fn agrees(&self, other: &Self, group: u8) -> bool {
+        self.index(group) == other.index(group)
+    }
+
+    /// The active settable offset: its index in its group, from 2; `None` with G500.
+    #[must_use]
+    pub fn settable_offset(&self) -> Option<u8> {
+        Some(self.index(groups::SETTABLE_OFFSET)).filter(|index| *index > g::G500.index)
+    }
+
     /// Activates a function. Returns whether its group is modal and has a function of this index.
     pub fn set(&mut self, function: GFunction) -> bool {
         match slot(function.group) {
@@ -171,7 +325,7 @@ impl Modal {
 
     /// The modal groups with the index of their active function.
     pub fn groups(&self) -> impl Iterator<Item = GFunction> {
-        MODAL.into_iter().zip(self.active).map(|((group, _), index)| GFunction::new(group, index))
+        MODAL.into_iter().zip(self.active).map(|(function, index)| GFunction::new(function.group, index))
     }
 }
 

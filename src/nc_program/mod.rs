@@ -80,13 +80,13 @@ pub use alarm::{Class, ProgramAlarm, numbers as alarm_numbers};
 pub use check::{CheckFinding, check};
 pub use condition::{Condition, MainRunValue};
 pub use dialect::{Dialect, SINUMERIK};
-pub use environment::{Environment, Refusal, SystemVariable};
-pub use functions::{GFunction, Modal, g, name as function_name};
+pub use environment::{Environment, SystemVariable, VariableRefusal};
+pub use functions::{GFunction, INCH, Modal, g, groups, name as function_name};
 pub use names::{AxisIndex, AxisKind, AxisName, AxisNames};
 pub use operator::Operator;
 pub use prepared::{
     Action, AuxiliaryFunction, AuxiliaryKind, AxisWord, Block, Centre, Circle, CouplingKind, Dimension, End,
-    MainRunAction, Origin, Prepared, SynchronisedAction,
+    MainRunAction, Origin, Prepared, SynchronisedAction, is_of_spindle, predefined_group,
 };
 pub use search::BlockTarget;
 pub use source::{Library, Program, ProgramKind, Request, normalised};

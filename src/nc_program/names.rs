@@ -13,11 +13,11 @@ pub struct AxisName {
     pub name: String,
     /// What kind of axis it is.
     pub kind: AxisKind,
-    /// Positions outside 0 to 359.999 are allowed with DC, ACP and ACN (MD30455 bit 0).
+    /// Absolute positions outside 0 to 359.999 are allowed (MD30455 bit 0).
     pub is_beyond_modulo: bool,
 }
 
-/// What DC, ACP and ACN need to know.
+/// What absolute positions, DC, ACP and ACN need to know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AxisKind {
     /// A linear axis.

@@ -1,6 +1,7 @@
 //! What preparation hands to the channel: a block as it is to be executed.
 //!
-//! Values are those that the program wrote: frames, units and limits are the business of the channel.
+//! Values are those that the program wrote: frames, units and limits are the business of the channel. Only programmable offsets have a unit, since
+//! G70 and G71 act on them where they are programmed.
 
 use serde::{Deserialize, Serialize};
 
@@ -57,7 +58,7 @@ pub struct Block {
     pub once: Vec<GFunction>,
     /// The path feedrate that holds in it.
     pub feed: Option<f64>,
-    /// The programmable offset (TRANS, ATRANS) that holds in it. Axes without an entry have 0.
+    /// The programmable offset (TRANS, ATRANS) that holds in it, in millimetres or degrees. Axes without an entry have 0.
     pub offset: Vec<(AxisIndex, f64)>,
     /// Axis words, in their order.
     pub axes: Vec<AxisWord>,
@@ -156,6 +157,27 @@ pub enum AuxiliaryKind {
     F,
 }
 
+/// The predefined auxiliary function group of an M function: 1 stop and end, 2 spindle, 4 gear stage.
+#[must_use]
+pub fn predefined_group(m: f64) -> Option<u8> {
+    let has = |numbers: &[f64]| numbers.contains(&m);
+    if has(&[0.0, 1.0, 2.0, 17.0, 30.0]) {
+        Some(1)
+    } else if has(&[3.0, 4.0, 5.0, 19.0, 70.0]) {
+        Some(2)
+    } else if has(&[40.0, 41.0, 42.0, 43.0, 44.0, 45.0]) {
+        Some(4)
+    } else {
+        None
+    }
+}
+
+/// Whether an M function concerns a spindle: M3, M4, M5, M19, M70, M40 to M45.
+#[must_use]
+pub fn is_of_spindle(m: f64) -> bool {
+    matches!(predefined_group(m.round()), Some(2 | 4))
+}
+
 /// An auxiliary function.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AuxiliaryFunction {
@@ -207,6 +229,8 @@ pub enum Action {
     HandwheelFeed(AxisIndex, f64),
     /// `FD=`: a handwheel changes the path feed of this block.
     PathHandwheelFeed(f64),
+    /// FGROUP: the path feed refers to these axes from now on; none: to the geometry axes.
+    FeedGroup(Vec<AxisIndex>),
     /// `ACC[X]=`, in percent.
     Acceleration(AxisIndex, f64),
     /// `OVR=`, in percent.

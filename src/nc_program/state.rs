@@ -14,7 +14,7 @@ use super::variables::Variable;
 pub struct Interpreter {
     pub(super) modal: Modal,
     pub(super) feed: Option<f64>,
-    /// The programmable offset.
+    /// The programmable offset, in millimetres or degrees.
     pub(super) offset: Vec<(AxisIndex, f64)>,
     /// The main program first.
     pub(super) levels: Vec<Level>,

@@ -232,6 +232,11 @@ impl State {
         open.flat_map(|grouping| grouping.coupling.members()).collect()
     }
 
+    /// The synchronous axes of closed groupings.
+    pub(super) fn coupled_axes(&self) -> AxisSet {
+        self.units.iter().fold(AxisSet::NONE, |axes, unit| axes.with(unit.set.without(AxisSet::of(unit.leader()))))
+    }
+
     /// JOG without a machine function.
     pub(super) fn is_jogging(&self, unit: &Unit) -> bool {
         self.mode_group(unit).is_jogging()

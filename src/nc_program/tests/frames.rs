@@ -26,6 +26,17 @@ fn ctrans_is_an_offset_and_a_chain_of_frames_is_their_sum() {
     assert_eq!(offsets("$P_PFRAME=CTRANS(X,1)\nATRANS X2 Y3\nM30"), x_y(3.0, 3.0));
 }
 
+/// G70 and G71 act where TRANS is programmed: 2 inches are 50.8 mm, whatever holds later. A rotary axis has no inches.
+#[test]
+fn an_offset_is_the_length_that_it_was_when_it_was_programmed() {
+    let x = |x: f64| vec![("X".to_owned(), x)];
+    assert_eq!(offsets("G70 TRANS X2\nG71 G0 X1\nM30"), x(50.8));
+    assert_eq!(offsets("TRANS X2\nG70 ATRANS X1\nG710 G0 X1\nM30"), x(27.4));
+    assert_eq!(offsets("G700 TRANS C90\nG0 X1\nM30"), vec![("C".to_owned(), 90.0)]);
+    // System variables have millimetres.
+    assert_eq!(r("G70 TRANS X2\nR1=$P_PFRAME[X,TR]\n$P_PFRAME[X,TR]=7\nR2=$P_PFRAME[X,TR]\nM30", 2), [50.8, 7.0]);
+}
+
 #[test]
 fn variables_of_type_frame_have_offsets_of_axes() {
     assert_eq!(

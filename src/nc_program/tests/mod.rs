@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use crate::nc_program::{
     AxisKind, AxisName, AxisNames, Block, Dialect, Environment, Interpreter, Library, Modal, Prepared, Program,
-    ProgramAlarm, Refusal, Request, SINUMERIK, SystemVariable, Value,
+    ProgramAlarm, Request, SINUMERIK, SystemVariable, Value, VariableRefusal,
 };
 
 /// A channel for tests.
@@ -89,32 +89,32 @@ impl Environment for Channel {
         self.r[index as usize] = value;
     }
 
-    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, Refusal> {
+    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, VariableRefusal> {
         match variable.indices {
-            [Value::Int(99)] => return Err(Refusal::FirstIndex),
-            [_, Value::Int(99)] => return Err(Refusal::SecondIndex),
-            [Value::Axis(axis)] if self.axes.name(*axis) == "XF" => return Err(Refusal::Axis),
+            [Value::Int(99)] => return Err(VariableRefusal::FirstIndex),
+            [_, Value::Int(99)] => return Err(VariableRefusal::SecondIndex),
+            [Value::Axis(axis)] if self.axes.name(*axis) == "XF" => return Err(VariableRefusal::Axis),
             _ => {}
         }
         match variable.name {
-            "$MN_SECRET" => Err(Refusal::ReadProtected),
-            "$AC_PATHN" => Err(Refusal::NotModelled),
-            name => self.system.get(name).cloned().ok_or(Refusal::Unknown),
+            "$MN_SECRET" => Err(VariableRefusal::ReadProtected),
+            "$AC_PATHN" => Err(VariableRefusal::NotModelled),
+            name => self.system.get(name).cloned().ok_or(VariableRefusal::Unknown),
         }
     }
 
-    fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), Refusal> {
+    fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), VariableRefusal> {
         match (variable.name, value.number()) {
-            ("$MN_FIXED", _) => Err(Refusal::WriteProtected),
-            ("$MC_LIMIT", None) => Err(Refusal::WrongType),
-            ("$MC_LIMIT", Some(number)) if number < 0.0 => Err(Refusal::Below),
-            ("$MC_LIMIT", Some(number)) if number > 10.0 => Err(Refusal::Above),
-            ("$MC_LIMIT", Some(number)) if number.fract() != 0.0 => Err(Refusal::Invalid),
+            ("$MN_FIXED", _) => Err(VariableRefusal::WriteProtected),
+            ("$MC_LIMIT", None) => Err(VariableRefusal::WrongType),
+            ("$MC_LIMIT", Some(number)) if number < 0.0 => Err(VariableRefusal::Below),
+            ("$MC_LIMIT", Some(number)) if number > 10.0 => Err(VariableRefusal::Above),
+            ("$MC_LIMIT", Some(number)) if number.fract() != 0.0 => Err(VariableRefusal::Invalid),
             (name, _) if self.system.contains_key(name) => {
                 self.system.insert(name.to_owned(), value.clone());
                 Ok(())
             }
-            _ => Err(Refusal::Unknown),
+            _ => Err(VariableRefusal::Unknown),
         }
     }
 

@@ -185,7 +185,6 @@ fn functions_that_are_not_modelled_are_refused() {
         "G63",
         "G75 X1=0",
         "G96 S100",
-        "FGROUP(X,Y)",
         "FB=100",
         "G1 X5 FD=0",
         "MCALL L10",
@@ -252,6 +251,8 @@ fn positioning_axes_wait_or_not() {
         Action::SpindlePosition { spindle: Some(2), value: 90.0, dimension: Dimension::FromPlus, waits: true };
     assert_eq!(action("SPOS[2]=ACP(90)"), expected);
     assert_eq!(action("WAITS(1,2)"), Action::WaitForSpindle(vec![1, 2]));
+    assert_eq!(action("FGROUP(X,Y)"), Action::FeedGroup(vec![X, Y]));
+    assert_eq!(action("FGROUP()"), Action::FeedGroup(vec![]));
 }
 
 #[test]

@@ -61,6 +61,7 @@ alarms! {
     14060 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 wrong skip level";
     14080 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 jump target does not exist %3";
     14082 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 label of a part of the program does not exist %3";
+    14088 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 position too large";
     14091 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 function not allowed here %3";
     14092 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 wrong type of axis %3";
     14095 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 radius of the circle is too small";
@@ -192,6 +193,10 @@ pub(in crate::sinumerik) const START_IN_SERUPRO: AlarmNumber = AlarmNumber(16942
 pub(in crate::sinumerik) const START_IN_MDA: AlarmNumber = AlarmNumber(16952);
 /// FD or FDA, and no handwheel is assigned to the axis.
 pub(in crate::sinumerik) const NO_HANDWHEEL: AlarmNumber = AlarmNumber(20080);
+/// A position beyond all that an axis can have.
+pub(in crate::sinumerik) const POSITION_TOO_LARGE: AlarmNumber = AlarmNumber(14088);
+/// A position of a modulo axis or of a spindle that is not within 0 to 359.999.
+pub(in crate::sinumerik) const OUTSIDE_MODULO_RANGE: AlarmNumber = AlarmNumber(16830);
 /// A command axis of a synchronised action that cannot move.
 pub(in crate::sinumerik) const COMMAND_AXIS: AlarmNumber = AlarmNumber(20140);
 /// A command axis that a PLC program has.

@@ -77,14 +77,31 @@ impl State {
         })
     }
 
-    /// Brakes the unit because of a hardware limit switch, according to MD36600 of the axis on the switch.
-    pub(in crate::sinumerik) fn brake_at_limit(&mut self, unit: &Unit, parameters: &Parameters) {
+    /// What holds the movement of a program in this direction: a pressed switch, or 21614, which only RESET ends. The switch alone does not let the axis
+    /// go on.
+    pub(in crate::sinumerik) fn limits_program(&self, unit: &Unit, direction: i8) -> Option<Input> {
+        if let Some(pressed) = self.limited_by(unit, direction) {
+            return Some(self.axes[pressed].limits.input(pressed, direction));
+        }
+        let is_of_unit = |alarm: &RaisedAlarm| {
+            unit.members()
+                .any(|axis| *alarm == limit_alarm(alarms::HARDWARE_LIMIT_SWITCH, unit.channel, axis, direction))
+        };
+        let mut pending = self.alarms.iter();
+        pending.any(|(alarm, _)| is_of_unit(alarm)).then_some(Input::Alarm(alarms::HARDWARE_LIMIT_SWITCH.0))
+    }
+
+    /// Brakes the unit because of a hardware limit switch, according to MD36600 of the axis on the switch. Returns whether it has set the motion: not
+    /// with MD36600 = 0, the ramp of the axis.
+    pub(in crate::sinumerik) fn brake_at_limit(&mut self, unit: &Unit, parameters: &Parameters) -> bool {
         let pressed = |axis: &AxisNumber| self.axes[*axis].limits.minus || self.axes[*axis].limits.plus;
-        if unit.members().filter(pressed).any(|axis| parameters.axes[axis].limit_without_ramp) {
+        let at_once = unit.members().filter(pressed).any(|axis| parameters.axes[axis].limit_without_ramp);
+        if at_once {
             for axis in unit.members() {
                 self.axes[axis].motion = Motion::Brake { deceleration: WITHOUT_RAMP };
             }
         }
+        at_once
     }
 
     /// The software limit of an axis in a direction, if it is active.

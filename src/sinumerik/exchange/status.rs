@@ -23,11 +23,13 @@ pub(in crate::sinumerik) struct Status {
 }
 
 impl Owners {
-    /// `$AA_TYP` of an axis as a program of this channel sees it. A program runs in AUTOMATIC or MDA, so the values of JOG do not occur.
-    pub(in crate::sinumerik) fn axis_type(&self, axis: AxisNumber, channel: ChannelNumber) -> i32 {
+    /// `$AA_TYP` of an axis as a program of this channel sees it. A program runs in AUTOMATIC or MDA, so the values of JOG do not occur. A synchronous
+    /// axis of a closed grouping is a coupled axis (P-94).
+    pub(in crate::sinumerik) fn axis_type(&self, axis: AxisNumber, channel: ChannelNumber, is_coupled: bool) -> i32 {
         let of = self.of(axis);
         match of.holder {
             _ if of.channel != channel => 0,
+            _ if is_coupled => 7,
             Holder::Program => 1,
             Holder::Neutral => 2,
             Holder::Plc => 3,

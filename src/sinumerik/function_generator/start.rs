@@ -2,7 +2,7 @@
 
 use crate::control::FunctionGenerator;
 use crate::image::axis_from_nck;
-use crate::sinumerik::alarms::{self, Reaction};
+use crate::sinumerik::alarms;
 use crate::sinumerik::function_generator::state::{Generator, Phase};
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::nck::Nck;
@@ -69,10 +69,7 @@ impl State {
             self.generators = generators;
             return;
         }
-        let hindering = self.alarms.first_alarm(|of, alarm| {
-            alarm.reaction.has(Reaction::START_DISABLED) && self.owners.concerns_channel(parameters, of, channel)
-        });
-        if let Some((number, _)) = hindering {
+        if let Some(number) = self.start_is_locked(channel, parameters) {
             let inputs = [pressed, Input::Alarm(number.0), Input::None];
             self.refuse_start(channel, alarms::programs::ALARM_PENDING, Rule::StartHinderedByAlarm, inputs);
         } else {

@@ -80,10 +80,7 @@ impl State {
         if let Some((mode, input, channel)) = hinders
             && was_refused != Some(mode)
         {
-            let event = self.log.note_one(place, Rule::ModeRefused, input, self.programs[channel].cause);
-            let action = Parameter::Text(short_text("mode change"));
-            let shown = [Parameter::None, Parameter::Channel(channel), action, Parameter::None];
-            self.alarms.raise(alarms::MODE_ONLY_IN_RESET, place, shown, event);
+            self.refuse_mode(group, channel, input);
         }
         let requested = requested.filter(|_| hinders.is_none());
         let state = &mut self.mode_groups[group];
@@ -93,6 +90,24 @@ impl State {
             state.mode = mode;
             state.mode_cause = self.log.note_one(place, Rule::ModeSelected, input, EventId::NONE);
         }
+        self.select_function(group, parameters, to_nck);
+    }
+
+    /// 16913: a program of the channel hinders the change of the mode.
+    fn refuse_mode(&mut self, group: ModeGroupNumber, channel: ChannelNumber, input: Input) {
+        let place = Place::ModeGroup(group);
+        let event = self.log.note_one(place, Rule::ModeRefused, input, self.programs[channel].cause);
+        let action = Parameter::Text(short_text("mode change"));
+        let shown = [Parameter::None, Parameter::Channel(channel), action, Parameter::None];
+        self.alarms.raise(alarms::MODE_ONLY_IN_RESET, place, shown, event);
+    }
+
+    /// The machine function of the mode: REF and REPOS in JOG, TEACH IN in MDA.
+    fn select_function(&mut self, group: ModeGroupNumber, parameters: &Parameters, to_nck: &ToNck) {
+        let signals = &to_nck.mode_groups[group];
+        let place = Place::ModeGroup(group);
+        let input = |signal: Signal, value: bool| mode_group_signal(group, signal, value);
+        let state = &self.mode_groups[group];
         let wants_reference = state.mode == Mode::Jog && signals.machine_function_ref();
         let pressed = input(mode_group_to_nck::machine_function_ref, true);
         let refuses = self.refuses_reference(group, wants_reference, pressed, parameters);

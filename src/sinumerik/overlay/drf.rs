@@ -9,7 +9,7 @@ use crate::image::ToNck;
 use crate::motion::Limits;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::inputs::channel_signal;
+use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::jog::handwheels::{active_handwheel, limited};
 use crate::sinumerik::jog::state::Function;
 use crate::sinumerik::nck::Nck;
@@ -51,16 +51,23 @@ impl State {
         }
         active &= active.wrapping_neg();
         let mut next = self.axes[number].overlay;
-        if active != next.handwheels {
+        let inverted = active != 0 && signals.invert_handwheel_direction_of_rotation();
+        if active != next.handwheels || inverted != next.inverted {
             let drf = channel_signal(unit.channel, crate::image::channel_to_nck::activate_drf, selected);
             let wheel = active_handwheel(number, active);
+            let inversion = if inverted == next.inverted {
+                Input::None
+            } else {
+                let signal = crate::image::axis_to_nck::invert_handwheel_direction_of_rotation;
+                axis_signal(number, signal, signals.invert_handwheel_direction_of_rotation())
+            };
             next.cause = self.log.note(
                 Place::Axis(number),
                 Rule::DrfSelected,
-                [drf, wheel, Input::None],
+                [drf, wheel, inversion],
                 self.mode_group(unit).mode_cause,
             );
-            next.handwheels = active;
+            (next.handwheels, next.inverted, next.selected) = (active, inverted, next.cause);
         }
         let own = &parameters.axes[number];
         let requested = signals.requested_machine_functions();
@@ -81,7 +88,7 @@ impl State {
                 let event = self.log.note_plain(Place::Axis(number), Rule::DrfWhileReferencing, turned);
                 self.raise_axis_alarm(alarms::DRF_NOT_POSSIBLE, number, event);
             } else {
-                let sign = if signals.invert_handwheel_direction_of_rotation() { -1.0 } else { 1.0 };
+                let sign = if inverted { -1.0 } else { 1.0 };
                 let exact = (detents * increment.increments() as f64 * sign + next.carry).clamp(-1e15, 1e15);
                 #[expect(clippy::cast_possible_truncation, reason = "bounded above")]
                 let way = Position::new(exact.round() as i64);
@@ -121,9 +128,9 @@ impl State {
             let axis = &mut self.axes[member];
             let cause = if member == number { next.cause } else { axis.overlay.cause };
             // Only the leading axis has a handwheel.
-            let handwheels = if member == number { next.handwheels } else { 0 };
+            let (handwheels, inverted) = if member == number { (next.handwheels, next.inverted) } else { (0, false) };
             let by = next.setpoint.position - axis.overlay.setpoint.position;
-            axis.overlay = super::state::Overlay { cause, handwheels, ..next };
+            axis.overlay = super::state::Overlay { cause, handwheels, inverted, ..next };
             if axis.measuring_system.is_some() {
                 axis.actual -= by;
                 axis.monitor.shift(Position::ZERO - by);
@@ -158,8 +165,10 @@ impl State {
 
 impl Axis {
     fn absorb_overlay(&mut self) {
-        let (by, handwheels, cause) = (self.overlay.position(), self.overlay.handwheels, self.overlay.cause);
-        self.overlay = super::state::Overlay { handwheels, cause, ..super::state::Overlay::default() };
+        let super::state::Overlay { handwheels, inverted, cause, selected, .. } = self.overlay;
+        let by = self.overlay.position();
+        self.overlay =
+            super::state::Overlay { handwheels, inverted, cause, selected, ..super::state::Overlay::default() };
         if by != Position::ZERO && self.measuring_system.is_some() {
             self.actual += by;
             self.setpoint.shift(by);

@@ -34,10 +34,14 @@ pub(in crate::sinumerik) struct Overlay {
     pub carry: f64,
     /// The handwheel that moves the axis, as a bit.
     pub handwheels: u8,
+    /// 67.0: the direction of this handwheel is inverted.
+    pub inverted: bool,
     /// The traverse command of its movement: +1, −1 or 0.
     pub command: i8,
     /// The event behind handwheel and command.
     pub cause: EventId,
+    /// The event behind the handwheel and its inversion alone.
+    pub selected: EventId,
 }
 
 impl Overlay {

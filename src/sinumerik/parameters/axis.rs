@@ -1,5 +1,6 @@
 //! The active machine data of one axis in the units of the model.
 
+use crate::nc_program::Dimension;
 use crate::sinumerik::machine_data::{Axis, MachineData};
 use crate::sinumerik::parameters::compensation::{AxisCompensation, axis_compensation};
 use crate::sinumerik::parameters::dynamics::{Dynamics, dynamics, jerk};
@@ -123,6 +124,19 @@ pub struct Gantry {
     pub function_mask: u32,
 }
 
+impl AxisParameters {
+    /// The velocity of a feed of a positioning axis, in mm/min or rev/min (FA, FDA, FC 18), in increments per second.
+    pub(in crate::sinumerik) fn velocity_of_feed(&self, feed: f64) -> f64 {
+        feed * Position::PER_USER_UNIT / 60.0 * if self.rotary { 360.0 } else { 1.0 }
+    }
+
+    /// Whether an axis can be positioned at a value in degrees: 16830 refuses absolute positions of a modulo axis outside of 0 to 359.999, unless
+    /// MD30455 bit 0 makes them count modulo 360.
+    pub(in crate::sinumerik) fn is_within_modulo(&self, degrees: f64, dimension: Dimension) -> bool {
+        dimension == Dimension::Incremental || !self.modulo || self.beyond_modulo || (0.0..360.0).contains(&degrees)
+    }
+}
+
 /// MD30460: what the PLC may do with an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlcAxis {
@@ -212,6 +226,8 @@ pub struct AxisParameters {
     pub limit_without_ramp: bool,
     /// MD30310: a modulo rotary axis has no software limits.
     pub modulo: bool,
+    /// MD30455 bit 0: absolute positions outside of 0 to 359.999 degrees are possible.
+    pub beyond_modulo: bool,
     /// MD36100 and MD36120, MD36110 and MD36130.
     pub software_limits: [[Position; 2]; 2],
     /// MD32000 / MD36610.
@@ -293,6 +309,7 @@ pub(super) fn axis(
         standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
         limit_without_ramp: md.brake_mode_choice == 1,
         modulo: md.is_rot_ax && md.rot_is_modulo,
+        beyond_modulo: md.misc_function_mask & 1 == 1,
         software_limits: [
             [md.pos_limit_minus, md.pos_limit_minus2].map(Position::from_user),
             [md.pos_limit_plus, md.pos_limit_plus2].map(Position::from_user),

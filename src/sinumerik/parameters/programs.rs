@@ -387,7 +387,7 @@ fn program_axes(
             (true, false) => AxisKind::Rotary,
             (true, true) => AxisKind::Modulo,
         },
-        is_beyond_modulo: false,
+        is_beyond_modulo: axes[*axis].beyond_modulo,
     };
     let is_synchronous = |axis: AxisNumber| data.axes[axis].gantry_axis_type > 10;
     let mut path = ArrayVec::<AxisNumber, PATH_AXES>::new();

@@ -158,16 +158,16 @@ impl SpindleParameters {
         factor(code, self.override_is_gray, &self.override_factors, self.override_limit)
     }
 
-    /// The direction in which oscillation begins, with its cycles.
+    /// One cycle of an oscillation: its direction, and the cycles that are left in it (MD35440 clockwise, MD35450 counterclockwise). It begins when the
+    /// spindle stands.
     #[must_use]
-    pub fn first_oscillation(&self) -> (i8, u64) {
-        (self.first_direction, self.oscillation_cycles(self.first_direction))
-    }
-
-    /// MD35440 clockwise, MD35450 counterclockwise.
-    #[must_use]
-    pub fn oscillation_cycles(&self, direction: i8) -> u64 {
-        self.oscillation_times[usize::from(direction < 0)]
+    pub fn next_oscillation(&self, before: Option<(i8, u64)>, stands: bool) -> Option<(i8, u64)> {
+        let begins = |direction: i8| (direction, self.oscillation_times[usize::from(direction < 0)]);
+        match before {
+            None => stands.then(|| begins(self.first_direction)),
+            Some((direction, 0)) => Some(begins(-direction)),
+            Some((direction, left)) => Some((direction, left - 1)),
+        }
     }
 
     /// The data of a gear stage; those of stage 1 for 0.

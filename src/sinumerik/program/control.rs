@@ -191,9 +191,20 @@ impl State {
         }
     }
 
-    /// Drops the blocks behind the first `kept` ones, takes back what they have written into R parameters, and reads them again.
-    pub(super) fn read_again_behind(&mut self, run: &mut Run, kept: usize, stage: &Stage<'_>) {
-        let next = run.executed + kept as u64;
+    /// NC start has cancelled the alarm of a block: the block is read again, with the R parameters and variables that it finds now. What was read behind
+    /// it before is read again, too.
+    pub(super) fn read_failed_again(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let Preparation::Failed { block, .. } = &mut run.preparation else { return };
+        if let Some(read) = block.take() {
+            self.take_back(run, run.executed + 1, stage);
+            run.again.clear();
+            run.interpreter = read.before;
+        }
+        run.preparation = Preparation::Reads;
+    }
+
+    /// Takes back what was written into R parameters before this block and those behind it.
+    fn take_back(&mut self, run: &mut Run, next: u64, stage: &Stage<'_>) {
         while let Some((before, index, value)) = run.r_log.back().copied() {
             if before < next {
                 break;
@@ -201,13 +212,18 @@ impl State {
             self.r_parameters.set(stage.channel, index, value);
             run.r_log.pop_back();
         }
+    }
+
+    /// Drops the blocks behind the first `kept` ones, takes back what they have written into R parameters, and reads them again.
+    pub(super) fn read_again_behind(&mut self, run: &mut Run, kept: usize, stage: &Stage<'_>) {
+        self.take_back(run, run.executed + kept as u64, stage);
         run.queue.truncate(kept);
         run.again.clear();
         let behind = run.queue.back().and_then(|block| block.behind()).unwrap_or(&run.behind);
         run.interpreter.clone_from(&behind.interpreter);
         run.axis_feeds.clone_from(&behind.axis_feeds);
         (run.path_override, run.programmed_on_path) = (behind.path_override, behind.programmed_on_path);
-        (run.end, run.offsets) = (behind.end, behind.offsets);
+        (run.end, run.offsets, run.counted) = (behind.end, behind.offsets, behind.counted);
         run.preparation = Preparation::Reads;
     }
 }

@@ -7,7 +7,7 @@
 use crate::image::ToNck;
 use crate::image::channel_from_nck;
 use crate::nc_program::{Action, Library, Request, normalised};
-use crate::sinumerik::alarms::{Reaction, START_WITHOUT_REFERENCE, programs as alarms};
+use crate::sinumerik::alarms::{START_WITHOUT_REFERENCE, programs as alarms};
 use crate::sinumerik::inputs::channel_signal;
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
@@ -25,31 +25,18 @@ fn channels(numbers: &[u16]) -> Vec<ChannelNumber> {
     numbers.iter().filter_map(number).collect()
 }
 
-const fn bit(mark: u16) -> u128 {
-    1 << (mark % 128)
-}
-
 impl State {
     /// An action of coordination.
     pub(super) fn coordinate(&mut self, action: &Action, run: &mut Run, stage: &Stage<'_>, library: &Library) {
         let own = stage.channel;
         match action {
-            Action::SetMarks(marks) => {
-                for mark in marks {
-                    self.programs[own].marks |= bit(*mark);
-                }
-            }
-            Action::ClearMarks(marks) if marks.is_empty() => self.programs[own].marks = 0,
-            Action::ClearMarks(marks) => {
-                for mark in marks {
-                    self.programs[own].marks &= !bit(*mark);
-                }
-            }
+            Action::SetMarks(marks) => self.programs[own].set_marks(marks),
+            Action::ClearMarks(marks) => self.programs[own].clear_marks(marks),
             Action::WaitMark { mark, channels: others, .. } => {
                 let others = channels(others);
-                self.programs[own].marks |= bit(*mark);
+                self.programs[own].set_marks(&[*mark]);
                 if self.have_mark(own, *mark, &others) {
-                    self.programs[own].passed_marks |= bit(*mark);
+                    self.programs[own].pass_mark(*mark);
                 } else {
                     run.waits = Some(WaitFor::Mark { mark: *mark, channels: others });
                 }
@@ -72,7 +59,7 @@ impl State {
 
     /// Whether other channels have a mark.
     fn have_mark(&self, own: ChannelNumber, mark: u16, others: &[ChannelNumber]) -> bool {
-        others.iter().all(|other| *other == own || self.programs[*other].marks & bit(mark) != 0)
+        others.iter().all(|other| *other == own || self.programs[*other].has_mark(mark))
     }
 
     fn have_ended(&self, own: ChannelNumber, others: &[ChannelNumber]) -> bool {
@@ -84,9 +71,7 @@ impl State {
         let Action::WaitMark { mark, channels: others, is_conditional: true } = action else { return false };
         let passes = self.have_mark(own, *mark, &channels(others));
         if passes {
-            let program = &mut self.programs[own];
-            program.marks |= bit(*mark);
-            program.passed_marks |= bit(*mark);
+            self.programs[own].pass_mark(*mark);
         }
         passes
     }
@@ -97,8 +82,8 @@ impl State {
         for (channel, _) in parameters.existing_channels() {
             let Some(waits) = self.programs[channel].run.as_ref().and_then(|run| run.waits.as_ref()) else { continue };
             let (is_over, mark, others) = match waits {
-                WaitFor::Mark { mark, channels } => (self.have_mark(channel, *mark, channels), bit(*mark), channels),
-                WaitFor::End(channels) => (self.have_ended(channel, channels), 0, channels),
+                WaitFor::Mark { mark, channels } => (self.have_mark(channel, *mark, channels), Some(*mark), channels),
+                WaitFor::End(channels) => (self.have_ended(channel, channels), None, channels),
             };
             if is_over {
                 let other = others.iter().copied().find(|other| *other != channel);
@@ -106,10 +91,12 @@ impl State {
             }
         }
         for (channel, mark, other) in ended {
-            self.programs[channel].marks &= !mark;
+            if let Some(mark) = mark {
+                self.programs[channel].clear_marks(&[mark]);
+            }
             let before = self.programs[channel].cause;
             let (input, parent) = match other {
-                Some(other) if mark == 0 => {
+                Some(other) if mark.is_none() => {
                     (channel_signal(other, channel_from_nck::program_state_aborted, true), self.programs[other].cause)
                 }
                 Some(other) => (Input::None, self.programs[other].block_cause()),
@@ -207,9 +194,7 @@ impl State {
             let shown = [Parameter::Channel(channel), second, Parameter::None, Parameter::None];
             state.alarms.raise(number, Place::Channel(channel), shown, event);
         };
-        let hindered = self.alarms.first_alarm(|of, alarm| {
-            alarm.reaction.has(Reaction::START_DISABLED) && self.owners.concerns_channel(parameters, of, channel)
-        });
+        let hindered = self.start_is_locked(channel, parameters);
         let selected = self.programs[channel].selected.clone();
         if mode == Mode::Jog {
             refuse(self, alarms::MODE_NOT_SUITABLE, ACTION);

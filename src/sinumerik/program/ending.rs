@@ -1,11 +1,11 @@
 //! The end of a block: when its motion is over, and whether the program then stops, ends or goes on.
 
 use crate::image::channel_to_nck;
-use crate::nc_program::{Action, End};
+use crate::nc_program::{Action, End, groups};
 use crate::sinumerik::inputs::channel_signal;
 use crate::sinumerik::parameters::programs::OutputTime;
 use crate::sinumerik::program::executable::{Criterion, Executable, ProgrammedStop};
-use crate::sinumerik::program::execution::Progress;
+use crate::sinumerik::program::execution::BlockProgress;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::{Phase, Run, block_name};
 use crate::sinumerik::rules::Rule;
@@ -98,10 +98,10 @@ impl State {
     }
 
     /// The block is over: the program stops, ends, or goes on.
-    pub(super) fn end_block(&mut self, run: &mut Run, stage: &Stage<'_>) -> Progress {
+    pub(super) fn end_block(&mut self, run: &mut Run, stage: &Stage<'_>) -> BlockProgress {
         let channel = stage.channel;
         let place = Place::Channel(channel);
-        let Some(block) = run.take_executed() else { return Progress::Waits };
+        let Some(block) = run.take_executed() else { return BlockProgress::Waits };
         run.phase = Phase::Between;
         self.release_axes(&block, (channel, stage.own), run.block_cause, stage.parameters);
         // The path stands: what it would have passed into begins again when nothing holds it.
@@ -112,17 +112,17 @@ impl State {
         let input = Input::Block(block_name(&block.origin.name));
         if let Some(alarm) = run.cycle_alarm.take() {
             self.raise_block_alarm(alarm, run, stage);
-            return Progress::Changed;
+            return BlockProgress::Changed;
         }
         if block.end == Some(End::Program) && run.search.is_some() {
             self.target_is_missing(run, stage);
-            return Progress::Changed;
+            return BlockProgress::Changed;
         }
         if block.end == Some(End::Program) {
             let event = self.log.note_one(place, Rule::ProgramEnded, input, run.block_cause);
             self.end_spindle_functions(channel, stage.parameters, event);
             self.end_program(channel, stage.own, event, true);
-            return Progress::Ended;
+            return BlockProgress::Ended;
         }
         let associated = stage.to_nck.program_control[channel].activate_associated_m0_m1();
         let programmed = match block.stop {
@@ -149,7 +149,7 @@ impl State {
             let event = self.log.note(place, Rule::SingleBlock, [single, input, Input::None], run.block_cause);
             self.stop_program(channel, event);
         }
-        Progress::Changed
+        BlockProgress::Changed
     }
 
     /// Outputs the auxiliary functions of the block that runs which have this time; with MD20800 bit 1 M1 only while it stops.
@@ -173,7 +173,7 @@ impl Run {
             || !last.positions.is_empty()
             || !last.references.is_empty();
         // SOFT and BRISK, and the kind of feed (G94, G95), change at standstill.
-        let switches = next.modal.index(21) != last.modal.index(21) || next.modal.index(15) != last.modal.index(15);
+        let switches = [groups::ACCELERATION, groups::FEED].iter().any(|group| !next.modal.agrees(&last.modal, *group));
         let is_target = self.search.as_ref().is_some_and(|search| search.is_target(&next.origin));
         !stops && !switches && next.is_plain() && self.positionings.is_empty() && !is_target
     }

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use crate::control;
 use crate::control::Owner;
 use crate::nc_program::{
-    AxisIndex, AxisNames, Dialect, Environment, Library, Modal, Program, Refusal, Request, SINUMERIK, SystemVariable,
-    Value,
+    AxisIndex, AxisNames, Dialect, Environment, Library, Modal, Program, Request, SINUMERIK, SystemVariable, Value,
+    VariableRefusal,
 };
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::exchange::state::{Holder, Owners};
@@ -24,7 +24,7 @@ use crate::sinumerik::program::main_run::MAIN_RUN_VARIABLES;
 use crate::sinumerik::program::state::{ChannelProgram, ProgramState, Run};
 use crate::sinumerik::single_axis::state::SingleAxes;
 use crate::sinumerik::spindle::state::{Mode, Spindle};
-use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
 use crate::variables::RParameters;
 
 /// The channel, as the language sees it.
@@ -34,6 +34,8 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub axes: &'a PerAxis<Axis>,
     pub owners: &'a Owners,
     pub single: &'a SingleAxes,
+    /// The synchronous axes of closed groupings.
+    pub coupled: AxisSet,
     pub all: &'a Parameters,
     pub spindles: &'a PerAxis<Option<Box<Spindle>>>,
     pub r_parameters: &'a mut RParameters,
@@ -79,28 +81,27 @@ impl<'a> Channel<'a> {
 
     /// The settable and the programmable offset of an axis, with the G functions and the programmable offsets that hold.
     fn offset(&self, axis: AxisNumber, modal: Modal, programmable: &[(AxisIndex, f64)]) -> Position {
-        let rotary = self.all.axes[axis].rotary;
-        let programmable = geometry::offset_of(programmable, modal, &self.parameters.axes, axis, rotary);
-        self.program.settable_offset(modal.index(8), axis) + programmable
+        let programmable = geometry::offset_of(programmable, &self.parameters.axes, axis);
+        self.program.active_offset(modal, axis) + programmable
     }
 
-    fn axis(&self, value: Option<&Value>) -> Result<AxisNumber, Refusal> {
+    fn axis(&self, value: Option<&Value>) -> Result<AxisNumber, VariableRefusal> {
         match value {
             Some(Value::Axis(axis)) => {
-                self.parameters.axes.machine_axes.get(usize::from(axis.0)).copied().ok_or(Refusal::Axis)
+                self.parameters.axes.machine_axes.get(usize::from(axis.0)).copied().ok_or(VariableRefusal::Axis)
             }
-            _ => Err(Refusal::Axis),
+            _ => Err(VariableRefusal::Axis),
         }
     }
 
     /// `$MA_NAME[0,X]`, `$MC_NAME[1]`, `$MN_NAME`, `$SA_…`, `$SC_…`, `$SN_…`.
-    fn datum(&self, variable: &SystemVariable<'_>) -> Option<Result<Target, Refusal>> {
+    fn datum(&self, variable: &SystemVariable<'_>) -> Option<Result<Target, VariableRefusal>> {
         let datum = by_identifier(variable.name)?;
-        let (mut index, mut axis) = (0.0, None);
+        let (mut index, mut axis) = (Some(0), None);
         for value in variable.indices {
-            match (value.number(), value) {
-                (Some(number), _) => index = number,
-                (None, found) => axis = Some(self.axis(Some(found))),
+            match value.number() {
+                Some(_) => index = whole_index(Some(value), 255),
+                None => axis = Some(self.axis(Some(value))),
             }
         }
         let owner = match datum.scope {
@@ -109,20 +110,15 @@ impl<'a> Channel<'a> {
             Scope::Axis | Scope::AxisSetting => match axis {
                 Some(Ok(axis)) => Owner::Axis(axis),
                 Some(Err(refusal)) => return Some(Err(refusal)),
-                None => return Some(Err(Refusal::Axis)),
+                None => return Some(Err(VariableRefusal::Axis)),
             },
         };
-        let whole = (index.fract() == 0.0 && (0.0..255.0).contains(&index)).then(|| {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
-            let whole = index as u8;
-            whole
-        });
-        let target = whole.and_then(|index| Target::new(datum.number, owner, index).ok());
-        Some(target.ok_or(Refusal::FirstIndex))
+        let target = index.and_then(|index| Target::new(datum.number, owner, index).ok());
+        Some(target.ok_or(VariableRefusal::FirstIndex))
     }
 
     /// `$AA_ENC_COMP[0,5,X]`, `$AN_CEC_STEP[0]`: an element of a compensation table.
-    fn table(&self, variable: &SystemVariable<'_>) -> Option<Result<Element, Refusal>> {
+    fn table(&self, variable: &SystemVariable<'_>) -> Option<Result<Element, VariableRefusal>> {
         let table = TableVariable::named(variable.name)?;
         let (mut numbers, mut axis) = (Vec::new(), None);
         for value in variable.indices {
@@ -134,29 +130,29 @@ impl<'a> Channel<'a> {
                 },
             }
         }
-        Some(table.element(&numbers, axis).ok_or(Refusal::FirstIndex))
+        Some(table.element(&numbers, axis).ok_or(VariableRefusal::FirstIndex))
     }
 
     /// The number that an element has, or gets after the stage.
-    fn table_number(&self, element: Element) -> Result<Value, Refusal> {
+    fn table_number(&self, element: Element) -> Result<Value, VariableRefusal> {
         let written = self.tables.iter().rev().find(|(other, _)| *other == element);
         let number = match written {
             Some((_, TableValue::Number(number))) => Some(*number),
             Some((_, TableValue::Axis(_))) => None,
             None => self.stored.table_number(element),
         };
-        number.map(Value::Real).ok_or(Refusal::SecondIndex)
+        number.map(Value::Real).ok_or(VariableRefusal::SecondIndex)
     }
 
-    fn write_table(&mut self, element: Element, value: &Value) -> Result<(), Refusal> {
+    fn write_table(&mut self, element: Element, value: &Value) -> Result<(), VariableRefusal> {
         let value = match (value.number(), value) {
             (Some(number), _) => TableValue::Number(number),
-            (None, found) => TableValue::Axis(self.axis(Some(found)).map_err(|_| Refusal::WrongType)?),
+            (None, found) => TableValue::Axis(self.axis(Some(found)).map_err(|_| VariableRefusal::WrongType)?),
         };
         self.stored.may_write_table(element, value).map_err(|refusal| match refusal {
-            TableRefusal::Index(_) => Refusal::SecondIndex,
-            TableRefusal::Value(_) => Refusal::Invalid,
-            TableRefusal::Active(..) => Refusal::WriteProtected,
+            TableRefusal::Index(_) => VariableRefusal::SecondIndex,
+            TableRefusal::Value(_) => VariableRefusal::Invalid,
+            TableRefusal::Active(..) => VariableRefusal::WriteProtected,
         })?;
         self.tables.push((element, value));
         Ok(())
@@ -169,12 +165,12 @@ impl<'a> Channel<'a> {
     }
 
     /// $AA_S and other variables of a spindle: its number is the index, 0 the master spindle.
-    fn spindle_value(&self, variable: &SystemVariable<'_>) -> Result<Value, Refusal> {
+    fn spindle_value(&self, variable: &SystemVariable<'_>) -> Result<Value, VariableRefusal> {
         let number = variable.indices.first().and_then(Value::number).unwrap_or(0.0);
         let named = self.parameters.spindles.iter().map(|(number, _)| u16::from(*number));
         let known = named.chain([0]).find(|known| (f64::from(*known) - number).abs() < 1e-9);
-        let axis = known.and_then(|known| self.parameters.spindle(known)).ok_or(Refusal::FirstIndex)?;
-        let spindle = self.spindles[axis].as_deref().ok_or(Refusal::FirstIndex)?;
+        let axis = known.and_then(|known| self.parameters.spindle(known)).ok_or(VariableRefusal::FirstIndex)?;
+        let spindle = self.spindles[axis].as_deref().ok_or(VariableRefusal::FirstIndex)?;
         let known = known.filter(|known| *known != 0).unwrap_or_else(|| self.parameters.master_spindle.into());
         let prepared = self.prepared_spindles.iter().find(|(of, ..)| *of == known);
         let actual = self.axes[axis].velocity / REVOLUTION_PER_MINUTE;
@@ -195,7 +191,7 @@ impl<'a> Channel<'a> {
     }
 
     /// `$P_UIFR[1]`: the offsets of all axes that have one.
-    fn settable_frame(&self, variable: &SystemVariable<'_>) -> Result<Vec<(AxisIndex, f64)>, Refusal> {
+    fn settable_frame(&self, variable: &SystemVariable<'_>) -> Result<Vec<(AxisIndex, f64)>, VariableRefusal> {
         let index = settable_index(variable.indices.first())?;
         let mut offsets = Vec::new();
         for &axis in &self.parameters.axes.path {
@@ -209,9 +205,9 @@ impl<'a> Channel<'a> {
     }
 
     /// `$P_UIFR[1]=CTRANS(X,10)`: an axis without an offset gets 0.
-    fn set_settable_frame(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), Refusal> {
+    fn set_settable_frame(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), VariableRefusal> {
         let index = settable_index(variable.indices.first())?;
-        let Value::Frame(offsets) = value else { return Err(Refusal::WrongType) };
+        let Value::Frame(offsets) = value else { return Err(VariableRefusal::WrongType) };
         let mut axes = Vec::new();
         for (name, offset) in offsets {
             axes.push((self.axis(Some(&Value::Axis(*name)))?, Position::from_user(*offset)));
@@ -224,16 +220,121 @@ impl<'a> Channel<'a> {
     }
 
     /// `$P_UIFR[1,X,TR]`: the index in G group 8 and the axis.
-    fn settable_offset(&self, variable: &SystemVariable<'_>) -> Result<(u8, AxisNumber), Refusal> {
-        let [number, axis, part] = variable.indices else { return Err(Refusal::FirstIndex) };
+    fn settable_offset(&self, variable: &SystemVariable<'_>) -> Result<(u8, AxisNumber), VariableRefusal> {
+        let [number, axis, part] = variable.indices else { return Err(VariableRefusal::FirstIndex) };
         let index = settable_index(Some(number))?;
         let axis = self.axis(Some(axis))?;
         match part {
             Value::Text(part) if part == "TR" => {}
             // Rotation, scale and mirror image.
-            _ => return Err(Refusal::NotModelled),
+            _ => return Err(VariableRefusal::NotModelled),
         }
         Ok((index, axis))
+    }
+    /// The variables of an axis, which is their index; of a spindle; of settable offsets. `None` for any other name.
+    fn axis_value(&self, variable: &SystemVariable<'_>) -> Option<Result<Value, VariableRefusal>> {
+        let named = self.axis(variable.indices.first());
+        let of = |value: &dyn Fn(AxisNumber) -> Value| Some(named.map(value));
+        let length = |position: Position| Value::Real(position.user());
+        let compensation = |increments: f64| Value::Real(increments / Position::PER_USER_UNIT);
+        let axes = self.axes;
+        match variable.name {
+            "$AA_IM" => of(&|axis| length(axes[axis].setpoint.position + axes[axis].overlay.position())),
+            // Without a transformation the basic coordinates are those of the machine.
+            "$AA_IB" => of(&|axis| length(axes[axis].setpoint.position)),
+            "$AA_IW" => of(&|axis| {
+                let offset = self.offset(axis, self.program.modal, &self.program.programmable);
+                length(axes[axis].setpoint.position - offset)
+            }),
+            "$VA_IM" => of(&|axis| {
+                let axis = &axes[axis];
+                length(axis.actual + axis.overlay.position() + axis.compensation.setpoint)
+            }),
+            "$AC_DRF" => of(&|axis| length(axes[axis].overlay.target)),
+            "$VA_ENC1_COMP_VAL" => of(&|axis| length(axes[axis].compensation.encoder[0])),
+            "$VA_ENC2_COMP_VAL" => of(&|axis| length(axes[axis].compensation.encoder[1])),
+            "$VA_CEC_COMP_VAL" => of(&|axis| compensation(axes[axis].compensation.sag)),
+            "$VA_TEMP_COMP_VAL" => of(&|axis| compensation(axes[axis].compensation.temperature)),
+            "$P_EP" => Some(named.and_then(|axis| self.prepared_end(axis))),
+            "$AA_TYP" => of(&|axis| Value::Int(self.owners.axis_type(axis, self.channel, self.coupled.contains(axis)))),
+            "$AA_AXCHANGE_TYP" => of(&|axis| {
+                let (data, moves) = (self.all.axes[axis].plc_axis, self.single.moving.contains(axis));
+                Value::Int(self.owners.exchange_type((axis, data), self.channel, moves))
+            }),
+            "$AA_SNGLAX_STAT" => of(&|axis| {
+                let is_single = matches!(self.owners.of(axis).holder, Holder::Plc | Holder::Command);
+                Value::Int(self.single.status(axis, is_single))
+            }),
+            "$AA_REF" => of(&|axis| Value::Int(i32::from(axes[axis].is_referenced()))),
+            "$AA_S" | "$P_S" | "$P_SDIR" | "$AC_SDIR" | "$AC_SMODE" | "$AC_SGEAR" => Some(self.spindle_value(variable)),
+            "$P_UIFR" if variable.indices.len() == 1 => Some(self.settable_frame(variable).map(Value::Frame)),
+            "$P_UIFR" => {
+                let of_axis = self.settable_offset(variable);
+                Some(of_axis.map(|(index, axis)| length(self.program.settable_offset(index, axis))))
+            }
+            _ => None,
+        }
+    }
+
+    /// $P_EP: where the prepared blocks end, without offsets.
+    fn prepared_end(&self, axis: AxisNumber) -> Result<Value, VariableRefusal> {
+        let place = self.parameters.axes.place(axis).ok_or(VariableRefusal::Axis)?;
+        let offset = self.offset(axis, self.modal, &self.offset);
+        Ok(Value::Real((self.end[place] - offset.increments() as f64) / Position::PER_USER_UNIT))
+    }
+
+    /// The variables of the program and of the channel. `None` for any other name.
+    fn program_value(&self, variable: &SystemVariable<'_>) -> Option<Result<Value, VariableRefusal>> {
+        let program = &*self.program;
+        Some(Ok(match variable.name {
+            "$P_MSNUM" => Value::Int(self.parameters.master_spindle.into()),
+            "$P_NUM_SPINDLES" => Value::Int(i32::try_from(self.parameters.spindles.len()).unwrap_or(0)),
+            "$P_GG" => {
+                let group = whole_index(variable.indices.first(), 65).filter(|group| *group > 0);
+                return Some(
+                    group.map(|group| Value::Int(self.modal.index(group).into())).ok_or(VariableRefusal::FirstIndex),
+                );
+            }
+            "$P_F" => Value::Real(self.feed.unwrap_or(0.0)),
+            "$AC_PROG" => Value::Int(match program.state {
+                ProgramState::Aborted => 0,
+                ProgramState::Stopped => 1,
+                ProgramState::Running => 2,
+                ProgramState::Waiting => 3,
+                ProgramState::Interrupted => 4,
+            }),
+            "$AC_STAT" => Value::Int(match program.state {
+                ProgramState::Aborted => 0,
+                ProgramState::Stopped | ProgramState::Interrupted => 1,
+                ProgramState::Running | ProgramState::Waiting => 2,
+            }),
+            "$AC_TIME" => Value::Real(self.now - self.block_begun),
+            "$AC_TIMER" => {
+                return Some(
+                    main_run_index(variable).map(|index| Value::Real(program.main_run.timer(index, self.now))),
+                );
+            }
+            "$AC_MARKER" => {
+                return Some(main_run_index(variable).map(|index| Value::Int(program.main_run.marker(index))));
+            }
+            "$P_ISTEST" => Value::Bool(program.test.is_active),
+            "$P_SEARCH" => Value::Bool(self.search_level > 0),
+            "$P_SEARCHL" => Value::Int(self.search_level.into()),
+            _ => return None,
+        }))
+    }
+
+    /// The value of a machine datum.
+    fn stored_value(&self, target: &Target) -> Result<Value, VariableRefusal> {
+        match self.now(target) {
+            Some(control::Value::Boolean(value)) => Ok(Value::Bool(value)),
+            Some(control::Value::Integer(value)) => {
+                i32::try_from(value).map(Value::Int).or(Ok(Value::Real(value as f64)))
+            }
+            Some(control::Value::Real(value)) => Ok(Value::Real(value)),
+            Some(control::Value::Text(text)) => Ok(Value::Text(text)),
+            None => Err(VariableRefusal::ReadProtected),
+        }
     }
 }
 
@@ -262,110 +363,27 @@ impl Environment for Channel<'_> {
         }
     }
 
-    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, Refusal> {
-        let axis = || self.axis(variable.indices.first());
-        let length = |position: Position| Value::Real(position.user());
-        match variable.name {
-            "$AA_IM" => {
-                let axis = &self.axes[axis()?];
-                Ok(length(axis.setpoint.position + axis.overlay.position()))
-            }
-            // Without a transformation the basic coordinates are those of the machine.
-            "$AA_IB" => Ok(length(self.axes[axis()?].setpoint.position)),
-            "$AA_IW" => {
-                let axis = axis()?;
-                let offset = self.offset(axis, self.program.modal, &self.program.programmable);
-                Ok(length(self.axes[axis].setpoint.position - offset))
-            }
-            "$VA_IM" => {
-                let axis = &self.axes[axis()?];
-                Ok(length(axis.actual + axis.overlay.position() + axis.compensation.setpoint))
-            }
-            "$AC_DRF" => Ok(length(self.axes[axis()?].overlay.target)),
-            "$VA_ENC1_COMP_VAL" => Ok(length(self.axes[axis()?].compensation.encoder[0])),
-            "$VA_ENC2_COMP_VAL" => Ok(length(self.axes[axis()?].compensation.encoder[1])),
-            "$VA_CEC_COMP_VAL" => Ok(Value::Real(self.axes[axis()?].compensation.sag / Position::PER_USER_UNIT)),
-            "$VA_TEMP_COMP_VAL" => {
-                Ok(Value::Real(self.axes[axis()?].compensation.temperature / Position::PER_USER_UNIT))
-            }
-            "$P_EP" => {
-                let axis = axis()?;
-                let place = self.parameters.axes.place(axis).ok_or(Refusal::Axis)?;
-                let offset = self.offset(axis, self.modal, &self.offset);
-                Ok(Value::Real((self.end[place] - offset.increments() as f64) / Position::PER_USER_UNIT))
-            }
-            "$AA_TYP" => Ok(Value::Int(self.owners.axis_type(axis()?, self.channel))),
-            "$AA_AXCHANGE_TYP" => {
-                let axis = axis()?;
-                let data = self.all.axes[axis].plc_axis;
-                Ok(Value::Int(self.owners.exchange_type((axis, data), self.channel, self.single.moving.contains(axis))))
-            }
-            "$AA_SNGLAX_STAT" => {
-                let axis = axis()?;
-                let is_single = matches!(self.owners.of(axis).holder, Holder::Plc | Holder::Command);
-                Ok(Value::Int(self.single.status(axis, is_single)))
-            }
-            "$AA_REF" => Ok(Value::Int(i32::from(self.axes[axis()?].is_referenced()))),
-            "$P_MSNUM" => Ok(Value::Int(self.parameters.master_spindle.into())),
-            "$P_NUM_SPINDLES" => Ok(Value::Int(i32::try_from(self.parameters.spindles.len()).unwrap_or(0))),
-            "$AA_S" | "$P_S" | "$P_SDIR" | "$AC_SDIR" | "$AC_SMODE" | "$AC_SGEAR" => self.spindle_value(variable),
-            "$P_UIFR" if variable.indices.len() == 1 => self.settable_frame(variable).map(Value::Frame),
-            "$P_UIFR" => {
-                let (index, axis) = self.settable_offset(variable)?;
-                Ok(length(self.program.settable_offset(index, axis)))
-            }
-            "$P_GG" => {
-                let group = variable.indices.first().and_then(Value::number).unwrap_or(0.0);
-                if group.fract() != 0.0 || !(1.0..=64.0).contains(&group) {
-                    return Err(Refusal::FirstIndex);
-                }
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
-                let group = group as u8;
-                Ok(Value::Int(self.modal.index(group).into()))
-            }
-            "$P_F" => Ok(Value::Real(self.feed.unwrap_or(0.0))),
-            "$AC_PROG" => Ok(Value::Int(match self.program.state {
-                ProgramState::Aborted => 0,
-                ProgramState::Stopped => 1,
-                ProgramState::Running => 2,
-                ProgramState::Waiting => 3,
-                ProgramState::Interrupted => 4,
-            })),
-            "$AC_STAT" => Ok(Value::Int(match self.program.state {
-                ProgramState::Aborted => 0,
-                ProgramState::Stopped | ProgramState::Interrupted => 1,
-                ProgramState::Running | ProgramState::Waiting => 2,
-            })),
-            "$AC_TIME" => Ok(Value::Real(self.now - self.block_begun)),
-            "$AC_TIMER" => Ok(Value::Real(self.program.main_run.timer(main_run_index(variable)?, self.now))),
-            "$AC_MARKER" => Ok(Value::Int(self.program.main_run.marker(main_run_index(variable)?))),
-            "$P_ISTEST" => Ok(Value::Bool(self.program.test.is_active)),
-            "$P_SEARCH" => Ok(Value::Bool(self.search_level > 0)),
-            "$P_SEARCHL" => Ok(Value::Int(self.search_level.into())),
-            _ if let Some(element) = self.table(variable) => self.table_number(element?),
-            _ => match self.datum(variable) {
-                Some(target) => match self.now(&target?) {
-                    Some(control::Value::Boolean(value)) => Ok(Value::Bool(value)),
-                    Some(control::Value::Integer(value)) => {
-                        i32::try_from(value).map(Value::Int).or(Ok(Value::Real(value as f64)))
-                    }
-                    Some(control::Value::Real(value)) => Ok(Value::Real(value)),
-                    Some(control::Value::Text(text)) => Ok(Value::Text(text)),
-                    None => Err(Refusal::ReadProtected),
-                },
-                None if is_of_the_control(variable.name) => Err(Refusal::NotModelled),
-                None => Err(Refusal::Unknown),
-            },
+    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, VariableRefusal> {
+        if let Some(found) = self.axis_value(variable).or_else(|| self.program_value(variable)) {
+            return found;
+        }
+        if let Some(element) = self.table(variable) {
+            return self.table_number(element?);
+        }
+        match self.datum(variable) {
+            Some(target) => self.stored_value(&target?),
+            None if is_of_the_control(variable.name) => Err(VariableRefusal::NotModelled),
+            None => Err(VariableRefusal::Unknown),
         }
     }
 
-    fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), Refusal> {
+    fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), VariableRefusal> {
         if variable.name == "$P_UIFR" && variable.indices.len() == 1 {
             return self.set_settable_frame(variable, value);
         }
         if variable.name == "$P_UIFR" {
             let (index, axis) = self.settable_offset(variable)?;
-            let value = value.number().ok_or(Refusal::WrongType)?;
+            let value = value.number().ok_or(VariableRefusal::WrongType)?;
             self.program.set_settable_offset(index, axis, Position::from_user(value));
             return Ok(());
         }
@@ -374,7 +392,7 @@ impl Environment for Channel<'_> {
         }
         if matches!(variable.name, "$AC_TIMER" | "$AC_MARKER") {
             let index = main_run_index(variable)?;
-            let number = value.number().ok_or(Refusal::WrongType)?;
+            let number = value.number().ok_or(VariableRefusal::WrongType)?;
             if variable.name == "$AC_TIMER" {
                 self.program.main_run.set_timer(index, number, self.now);
             } else {
@@ -385,7 +403,7 @@ impl Environment for Channel<'_> {
         }
         let Some(target) = self.datum(variable) else {
             let known = is_of_the_control(variable.name);
-            return Err(if known { Refusal::NotModelled } else { Refusal::Unknown });
+            return Err(if known { VariableRefusal::NotModelled } else { VariableRefusal::Unknown });
         };
         let target = target?;
         let value = match value {
@@ -394,19 +412,23 @@ impl Environment for Channel<'_> {
             Value::Bool(value) => control::Value::Boolean(*value),
             Value::Char(value) => control::Value::Integer((*value).into()),
             Value::Text(text) => control::Value::Text(text.clone()),
-            Value::Axis(_) | Value::Frame(_) => return Err(Refusal::WrongType),
+            Value::Axis(_) | Value::Frame(_) => return Err(VariableRefusal::WrongType),
         };
         let (datum, number) = (target.datum(), value.number());
         if datum.read_only {
-            return Err(Refusal::WriteProtected);
+            return Err(VariableRefusal::WriteProtected);
         }
         match number {
-            Some(number) if datum.range.minimum.is_some_and(|minimum| number < minimum) => return Err(Refusal::Below),
-            Some(number) if datum.range.maximum.is_some_and(|maximum| number > maximum) => return Err(Refusal::Above),
+            Some(number) if datum.range.minimum.is_some_and(|minimum| number < minimum) => {
+                return Err(VariableRefusal::Below);
+            }
+            Some(number) if datum.range.maximum.is_some_and(|maximum| number > maximum) => {
+                return Err(VariableRefusal::Above);
+            }
             Some(_) | None => {}
         }
         if self.stored.check(&target, &value).is_err() {
-            return Err(Refusal::Invalid);
+            return Err(VariableRefusal::Invalid);
         }
         self.written.push((target, value));
         Ok(())
@@ -438,24 +460,24 @@ impl Environment for Channel<'_> {
     }
 }
 
-/// The index in G group 8: $P_UIFR[1] is G54, index 2 of its group; [5] is G505, index 6.
-fn settable_index(number: Option<&Value>) -> Result<u8, Refusal> {
-    let number = number.and_then(Value::number);
-    let number = number.filter(|number| number.fract() == 0.0 && (1.0..=99.0).contains(number));
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
-    let number = number.ok_or(Refusal::FirstIndex)? as u8;
-    Ok(number + 1)
+/// The index in the group of settable offsets: $P_UIFR[1] is G54, index 2 of its group; [5] is G505, index 6.
+fn settable_index(number: Option<&Value>) -> Result<u8, VariableRefusal> {
+    let number = whole_index(number, 100).filter(|number| *number > 0);
+    number.map(|number| number + 1).ok_or(VariableRefusal::FirstIndex)
 }
 
 /// The index of `$AC_TIMER` and `$AC_MARKER`.
-fn main_run_index(variable: &SystemVariable<'_>) -> Result<u8, Refusal> {
-    let index = variable.indices.first().and_then(Value::number).ok_or(Refusal::FirstIndex)?;
-    if index.fract() != 0.0 || !(0.0..f64::from(MAIN_RUN_VARIABLES)).contains(&index) {
-        return Err(Refusal::FirstIndex);
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
-    let index = index as u8;
-    Ok(index)
+fn main_run_index(variable: &SystemVariable<'_>) -> Result<u8, VariableRefusal> {
+    whole_index(variable.indices.first(), MAIN_RUN_VARIABLES).ok_or(VariableRefusal::FirstIndex)
+}
+
+/// A whole number from 0 to below a limit.
+fn whole_index(value: Option<&Value>, limit: u8) -> Option<u8> {
+    let number = value.and_then(Value::number)?;
+    let is_whole = number.fract() == 0.0 && (0.0..f64::from(limit)).contains(&number);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "used only if it fits")]
+    let whole = number as u8;
+    is_whole.then_some(whole)
 }
 
 /// Whether the control has system variables that begin like this. A machine or setting datum that the catalogue does not know has no name

@@ -2,31 +2,34 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion::path::{PathBlock, PerPathAxis};
-use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin};
+use crate::motion::path::{PATH_AXES, PathBlock, PerPathAxis};
+use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, g};
 use crate::sinumerik::parameters::programs::OutputTime;
 use crate::sinumerik::program::auxiliary::Package;
-use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::positioning::AxisPositioning;
 use crate::units::{AxisNumber, AxisSet, Position};
 
 /// The state of preparation behind a block: from there it can read on once more.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Behind {
+pub(in crate::sinumerik) struct StateBehind {
     pub interpreter: Interpreter,
     pub axis_feeds: Vec<(AxisNumber, f64)>,
     pub path_override: f64,
     pub programmed_on_path: AxisSet,
     /// The offsets with which the axes of the path were last programmed.
     pub offsets: PerPathAxis,
+    /// The axes that the path feed refers to (FGROUP).
+    pub counted: [bool; PATH_AXES],
     /// Where the axes of the path are then.
     pub end: PerPathAxis,
 }
 
-/// A block that was read, with the state behind it.
+/// A block that was read, with the interpreter before it and the state behind it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct ReadBlock {
     pub block: Block,
-    pub behind: Behind,
+    pub before: Interpreter,
+    pub behind: StateBehind,
 }
 
 /// A block that is ready to be executed.
@@ -42,7 +45,7 @@ pub(in crate::sinumerik) struct Executable {
     pub dwell: u64,
     pub dwell_turns: Option<(AxisNumber, f64)>,
     /// POS and POSA.
-    pub positions: Vec<Positioning>,
+    pub positions: Vec<AxisPositioning>,
     /// G74.
     pub references: Vec<AxisNumber>,
     /// What else it does, at its beginning.
@@ -58,7 +61,7 @@ pub(in crate::sinumerik) struct Executable {
     /// The block, to be prepared again if its axes begin elsewhere; `None` for a calculation.
     pub block: Option<Box<ReadBlock>>,
     /// The state behind a calculation, which is a block of its own in single block type 2.
-    pub calculation: Option<Box<Behind>>,
+    pub calculation: Option<Box<StateBehind>>,
     /// A search has found this block, which calculates: nothing of it was done, and this is dropped when the program stands before it.
     pub stands_before: bool,
     /// The approach after a search was its motion, and ends with its exact stop.
@@ -100,7 +103,7 @@ impl Executable {
     }
 
     /// The state of preparation behind it.
-    pub(in crate::sinumerik) fn behind(&self) -> Option<&Behind> {
+    pub(in crate::sinumerik) fn behind(&self) -> Option<&StateBehind> {
         self.block.as_deref().map(|read| &read.behind).or(self.calculation.as_deref())
     }
 
@@ -155,6 +158,19 @@ pub(in crate::sinumerik) enum Criterion {
     Coarse,
     /// The end of interpolation.
     Interpolation,
+}
+
+impl Criterion {
+    /// The criterion that holds in a block.
+    pub(in crate::sinumerik) fn of(modal: Modal) -> Self {
+        if modal.is(g::G602) {
+            Self::Coarse
+        } else if modal.is(g::G603) {
+            Self::Interpolation
+        } else {
+            Self::Fine
+        }
+    }
 }
 
 /// M0 and M1.

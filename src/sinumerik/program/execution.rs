@@ -13,7 +13,7 @@
 use crate::control::Changes;
 use crate::image::ToNck;
 use crate::motion::path::Feed;
-use crate::nc_program::{End, Library};
+use crate::nc_program::{End, Library, g, groups};
 use crate::sinumerik::alarms::{Alarm, Reaction};
 use crate::sinumerik::machine_data::{Element, MachineData, TableValue, Target};
 use crate::sinumerik::nck::Nck;
@@ -34,7 +34,7 @@ const CHANGES: usize = 100;
 
 /// What a block does after a look at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Progress {
+pub(super) enum BlockProgress {
     /// Something has changed: look again in the same cycle.
     Changed,
     /// It waits for the next cycle.
@@ -44,7 +44,7 @@ pub(super) enum Progress {
 }
 
 /// What programs read, and what they write into machine data and compensation tables.
-pub(super) struct Sources<'a> {
+pub(super) struct ProgramMemory<'a> {
     pub library: &'a Library,
     pub stored: &'a MachineData,
     pub written: &'a mut Vec<(Target, crate::control::Value)>,
@@ -64,7 +64,7 @@ impl Nck {
             if let Some(mut run) = state.programs[channel].run.take() {
                 let stage = Stage { channel, parameters, own, to_nck };
                 let (written, tables) = (&mut written, &mut tables);
-                let mut sources = Sources { library: &self.programs, stored: &self.stored, written, tables };
+                let mut sources = ProgramMemory { library: &self.programs, stored: &self.stored, written, tables };
                 let stays = state.run_program(&mut run, &stage, &mut sources);
                 new_conf |= std::mem::take(&mut run.new_conf);
                 starts.append(&mut run.starts);
@@ -101,7 +101,7 @@ impl Nck {
 
 impl State {
     /// One cycle of a program. Returns whether it is still there.
-    fn run_program(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> bool {
+    fn run_program(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut ProgramMemory<'_>) -> bool {
         let channel = stage.channel;
         run.pauses = false;
         // An axis that another holder gets begins where that leaves it.
@@ -145,9 +145,9 @@ impl State {
         } else if runs && !run.approaches {
             for _ in 0..CHANGES {
                 match self.execute(run, stage, sources) {
-                    Progress::Changed => {}
-                    Progress::Waits => break,
-                    Progress::Ended => return false,
+                    BlockProgress::Changed => {}
+                    BlockProgress::Waits => break,
+                    BlockProgress::Ended => return false,
                 }
                 if !matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting) {
                     break;
@@ -269,7 +269,7 @@ impl State {
             program.programmable.clone_from(&block.offset);
         }
         if program.modal != modal {
-            let switches = program.modal.index(24) != modal.index(24);
+            let switches = !program.modal.agrees(&modal, groups::FEED_FORWARD);
             (program.modal, program.modal_cause) = (modal, event);
             if switches {
                 self.prepare_position_control(stage.parameters);
@@ -277,25 +277,25 @@ impl State {
         }
     }
 
-    fn execute(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> Progress {
+    fn execute(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut ProgramMemory<'_>) -> BlockProgress {
         let channel = stage.channel;
         match run.phase {
             Phase::Between => self.take_next_block(run, stage, sources),
             Phase::Before => {
                 if self.programs[channel].output.is_busy() || self.gear_changing(stage).is_some() {
-                    return Progress::Waits;
+                    return BlockProgress::Waits;
                 }
                 self.begin_motion(run, stage, sources);
-                Progress::Changed
+                BlockProgress::Changed
             }
             Phase::Moving => {
                 self.prepare(run, stage, sources);
                 if !self.motion_has_ended(run, stage) {
-                    return Progress::Waits;
+                    return BlockProgress::Waits;
                 }
                 self.output(run, OutputTime::End, stage);
                 run.phase = Phase::After;
-                Progress::Changed
+                BlockProgress::Changed
             }
             Phase::After => {
                 // The program ends when what POSA has started is over, too.
@@ -304,14 +304,17 @@ impl State {
                 let changes = self.gear_changing(stage).is_some();
                 let busy = self.programs[channel].output.is_busy() || ends && moves || changes;
                 if busy || self.single_block_waits(run, stage) {
-                    return Progress::Waits;
+                    return BlockProgress::Waits;
                 }
                 self.end_block(run, stage)
             }
         }
     }
 
-    pub(super) fn prepare(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) {
+    pub(super) fn prepare(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut ProgramMemory<'_>) {
+        if std::mem::take(&mut run.reads_again) && run.queue.is_empty() {
+            self.read_failed_again(run, stage);
+        }
         let group = stage.parameters.mode_group(stage.channel);
         let signals = &stage.to_nck.channels[stage.channel];
         let restarts = stage.to_nck.jumps[stage.channel].enable_gotos();
@@ -333,6 +336,7 @@ impl State {
             axes: &self.axes,
             owners: &self.owners,
             single: &self.single,
+            coupled: self.coupled_axes(),
             all: stage.parameters,
             spindles: &self.spindles,
             r_parameters: &mut self.r_parameters,
@@ -354,41 +358,38 @@ impl State {
             end: run.end,
             is_executed: run.is_executed(),
         };
-        if std::mem::take(&mut run.reads_again) && run.queue.is_empty() {
-            run.read_again();
-        }
         run.prepare(&preparing, &mut environment);
     }
 
-    fn take_next_block(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> Progress {
+    fn take_next_block(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut ProgramMemory<'_>) -> BlockProgress {
         if self.is_axis_wanted(stage.channel) {
             // Between two blocks the PLC, or GETD of another channel, gets it in the next cycle.
-            return Progress::Waits;
+            return BlockProgress::Waits;
         }
         self.prepare(run, stage, sources);
         if self.waits_for_claim(run, stage) {
-            return Progress::Waits;
+            return BlockProgress::Waits;
         }
         if run.queue.is_empty() {
             return match &run.preparation {
-                Preparation::Reads | Preparation::Waits => Progress::Waits,
+                Preparation::Reads | Preparation::Waits => BlockProgress::Waits,
                 Preparation::Failed { alarm, .. } => {
                     let alarm = *alarm;
                     if run.positionings.is_empty() {
                         self.raise_block_alarm(alarm, run, stage);
                     }
-                    Progress::Waits
+                    BlockProgress::Waits
                 }
-                Preparation::Ended if !run.positionings.is_empty() => Progress::Waits,
+                Preparation::Ended if !run.positionings.is_empty() => BlockProgress::Waits,
                 Preparation::Ended if run.search.is_some() => {
                     self.target_is_missing(run, stage);
-                    Progress::Waits
+                    BlockProgress::Waits
                 }
                 Preparation::Ended => {
                     let place = Place::Channel(stage.channel);
                     let event = self.log.note_plain(place, Rule::ProgramEnded, run.block_cause);
                     self.end_program(stage.channel, stage.own, event, !run.is_mda);
-                    Progress::Ended
+                    BlockProgress::Ended
                 }
             };
         }
@@ -396,22 +397,23 @@ impl State {
             && search.is_target(&block.origin)
         {
             self.found(run, stage);
-            return Progress::Waits;
+            return BlockProgress::Waits;
         }
         if run.waits_for_command_axis(stage) {
-            return Progress::Waits;
+            return BlockProgress::Waits;
         }
         if self.is_read_in_disabled(stage.channel, stage.to_nck) || run.read_in_disabled {
-            return Progress::Waits;
+            return BlockProgress::Waits;
         }
         if let Some(alarm) = run.still_positioned(stage.own) {
+            run.refuse_next(alarm);
             self.raise_block_alarm(alarm, run, stage);
-            return Progress::Waits;
+            return BlockProgress::Waits;
         }
         self.begin_block(run, stage);
         self.output(run, OutputTime::Before, stage);
         run.phase = Phase::Before;
-        Progress::Changed
+        BlockProgress::Changed
     }
 
     /// Everything before a block that cannot be executed has been executed: its alarm appears, and the program stops.
@@ -434,7 +436,7 @@ impl State {
         }
     }
 
-    fn begin_motion(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &Sources<'_>) {
+    fn begin_motion(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &ProgramMemory<'_>) {
         let cycle = stage.parameters.cycle.seconds();
         let Some(block) = run.queue.front() else { return };
         block.begin_behind_interruption(&mut run.left);
@@ -446,7 +448,7 @@ impl State {
             run.path.place(position);
             let moving: AxisSet = run.positionings.iter().map(|positioning| positioning.axis).collect();
             run.commanded = run.commanded.and(moving);
-            let is_soft = block.modal.index(21) == 2;
+            let is_soft = block.modal.is(g::SOFT);
             run.path.set_jerk_window(if is_soft { stage.own.jerk_window } else { 1 });
         }
         (run.dwell, run.dwell_turns) = (block.dwell, block.dwell_turns);

@@ -1,59 +1,43 @@
 //! Geometry of a block: units, offsets, targets in machine coordinates, circles.
 
-use crate::motion::path::{Circle, PerPathAxis, Turn, Way};
-use crate::nc_program::{self, AxisIndex, Block, Dimension, GFunction, Modal, g};
+use crate::motion::path::{Circle, PATH_AXES, PerPathAxis, Turn, Way};
+use crate::nc_program::{self, AxisIndex, Block, Dimension, INCH, g, groups};
 use crate::sinumerik::parameters::programs::{ProgramAxes, ProgramParameters};
 use crate::units::{AxisNumber, Position};
-
-/// Millimetres in an inch, as G70 means it.
-pub(in crate::sinumerik) const INCH: f64 = 25.4;
 
 /// A whole turn of a modulo axis, in increments.
 const TURN: f64 = 360.0 * Position::PER_USER_UNIT;
 
 /// G53, SUPA, G153: the block has no settable and no programmable offset.
 pub(in crate::sinumerik) fn suppresses_offsets(block: &Block) -> bool {
-    block.once.iter().any(|function| function.group == 9)
+    block.once.iter().any(|function| function.group == groups::SUPPRESSION)
 }
 
 /// SUPA: the block has no DRF offset either.
 pub(in crate::sinumerik) fn suppresses_overlays(block: &Block) -> bool {
-    block.once.iter().any(|function| (function.group, function.index) == (9, 2))
+    block.once.contains(&g::SUPA)
 }
 
 /// G9, or G60 until G64.
 pub(in crate::sinumerik) fn is_exact_stop(block: &Block) -> bool {
-    block.once.iter().any(|function| function.group == 11) || block.modal.index(10) == 1
-}
-
-/// Whether lengths are in inches: G70 and G700.
-fn is_inch(modal: Modal) -> bool {
-    matches!(modal.index(13), 1 | 3)
+    block.once.contains(&g::G9) || block.modal.is(g::G60)
 }
 
 /// The path feed in increments per second. G70 and G71 leave feeds in the basic system, G700 and G710 do not.
 pub(in crate::sinumerik) fn feed(per_minute: f64, block: &Block, basic_is_inch: bool) -> f64 {
-    let inch = match block.modal.index(13) {
-        3 => true,
-        4 => false,
-        _ => basic_is_inch,
-    };
+    let inch = block.modal.is(g::G700) || basic_is_inch && !block.modal.is(g::G710);
     per_minute * if inch { INCH } else { 1.0 } * Position::PER_USER_UNIT / 60.0
 }
 
 /// G95: the feed is in mm per revolution of the master spindle.
 pub(in crate::sinumerik) fn is_per_revolution(block: &Block) -> bool {
-    block.modal.index(15) == 3
+    block.modal.is(g::G95)
 }
 
 /// A programmed length in increments.
 pub(in crate::sinumerik) fn length(value: f64, block: &Block, is_rotary: bool) -> f64 {
-    length_with(value, block.modal, is_rotary).increments() as f64
-}
-
-fn length_with(value: f64, modal: Modal, is_rotary: bool) -> Position {
-    let factor = if is_inch(modal) && !is_rotary { INCH } else { 1.0 };
-    Position::from_user(value * factor)
+    let factor = if block.modal.is_inch() && !is_rotary { INCH } else { 1.0 };
+    Position::from_user(value * factor).increments() as f64
 }
 
 /// The target of an axis in machine coordinates, in increments: `value` is programmed, `from` is where the axis is before.
@@ -63,7 +47,7 @@ pub(in crate::sinumerik) fn target(value: f64, dimension: Dimension, from: f64, 
         Dimension::Incremental => from + value,
         Dimension::Absolute if is_modulo => {
             // Within the turn in which the axis is.
-            (from / TURN).floor() * TURN + absolute
+            (from / TURN).floor() * TURN + absolute.rem_euclid(TURN)
         }
         Dimension::Absolute => absolute,
         Dimension::Shortest => {
@@ -88,19 +72,21 @@ pub(in crate::sinumerik) enum BadCircle {
 
 /// The plane of a block as places in the path, and the letters of its centre: I, J, K as 0 to 2.
 fn plane(block: &Block, axes: &ProgramAxes) -> Option<([usize; 2], [usize; 2])> {
-    let letters = match block.modal.index(6) {
-        2 => [2, 0],
-        3 => [1, 2],
-        _ => [0, 1],
+    let letters = if block.modal.is(g::G18) {
+        [2, 0]
+    } else if block.modal.is(g::G19) {
+        [1, 2]
+    } else {
+        [0, 1]
     };
     Some(([axes.geometry[letters[0]]?, axes.geometry[letters[1]]?], letters))
 }
 
 /// The arc of a block with G2 or G3, from `start` to `end` in increments. `offset` is that of a path axis. With an opening angle and a centre the
-/// end of the arc follows from them.
+/// end of the arc follows from them. `counted` are the axes that the feed refers to.
 pub(in crate::sinumerik) fn arc(
     block: &Block,
-    parameters: &ProgramParameters,
+    (parameters, counted): (&ProgramParameters, [bool; PATH_AXES]),
     start: PerPathAxis,
     mut end: PerPathAxis,
     offset: impl Fn(usize) -> f64,
@@ -151,7 +137,7 @@ pub(in crate::sinumerik) fn arc(
     }
     let tolerance = parameters.circle_tolerance.max(parameters.circle_tolerance_share * radius);
     let circle = Circle { plane, centre, turn, turns: programmed.turns.unwrap_or(0).into() };
-    Way::arc(start, end, circle, tolerance, axes.counted).map_err(|_| BadCircle::EndPoint)
+    Way::arc(start, end, circle, tolerance, counted).map_err(|_| BadCircle::EndPoint)
 }
 
 /// The centre of an arc with a radius; a negative one means the arc of more than 180°.
@@ -179,37 +165,21 @@ fn centre_by_radius(
     Ok([middle[0] + right[0] * side, middle[1] + right[1] * side])
 }
 
-/// The settable offset that is active: its index in G group 8; `None` with G500.
-pub(in crate::sinumerik) fn active_offset(block: &Block) -> Option<u8> {
-    Some(block.modal.index(8)).filter(|index| *index > 1)
-}
-
 /// The programmable offset of an axis in increments.
-pub(in crate::sinumerik) fn programmable_offset(
-    block: &Block,
-    axes: &ProgramAxes,
-    axis: AxisNumber,
-    is_rotary: bool,
-) -> f64 {
-    offset_of(&block.offset, block.modal, axes, axis, is_rotary).increments() as f64
+pub(in crate::sinumerik) fn programmable_offset(block: &Block, axes: &ProgramAxes, axis: AxisNumber) -> f64 {
+    offset_of(&block.offset, axes, axis).increments() as f64
 }
 
-/// The programmable offset of an axis among those of a block or of the preparation, with the G functions that hold there.
-pub(in crate::sinumerik) fn offset_of(
-    offsets: &[(AxisIndex, f64)],
-    modal: Modal,
-    axes: &ProgramAxes,
-    axis: AxisNumber,
-    is_rotary: bool,
-) -> Position {
+/// The programmable offset of an axis among those of a block or of the preparation.
+pub(in crate::sinumerik) fn offset_of(offsets: &[(AxisIndex, f64)], axes: &ProgramAxes, axis: AxisNumber) -> Position {
     let of_axis = |(name, _): &&(AxisIndex, f64)| axes.machine_axes.get(usize::from(name.0)) == Some(&axis);
     let found = offsets.iter().rev().find(of_axis);
-    found.map_or(Position::ZERO, |(_, value)| length_with(*value, modal, is_rotary))
+    found.map_or(Position::ZERO, |(_, value)| Position::from_user(*value))
 }
 
-/// The active function of each group that the PLC sees, with what holds only in this block.
+/// G0.
 pub(in crate::sinumerik) fn is_rapid(block: &Block) -> bool {
-    block.modal.is(GFunction { group: 1, index: 1 })
+    block.modal.is(g::G0)
 }
 
 #[cfg(test)]
@@ -227,6 +197,9 @@ mod tests {
         assert!((to(10.0, Dimension::Absolute, 350.0) - 10.0).abs() < 1e-9);
         assert!((to(10.0, Dimension::Absolute, 710.0) - 370.0).abs() < 1e-9);
         assert!((to(10.0, Dimension::Incremental, 350.0) - 360.0).abs() < 1e-9);
+        // MD30455 bit 0: 400° is 40°, and -15° is 345°.
+        assert!((to(400.0, Dimension::Absolute, 350.0) - 40.0).abs() < 1e-9);
+        assert!((to(-15.0, Dimension::Absolute, 350.0) - 345.0).abs() < 1e-9);
     }
 
     #[test]

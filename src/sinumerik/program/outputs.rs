@@ -1,7 +1,7 @@
 //! The auxiliary functions of a block: when each is output, and which stop the program.
 
 use crate::control::Changes;
-use crate::nc_program::{Action, AuxiliaryFunction, AuxiliaryKind, Block, End};
+use crate::nc_program::{Action, AuxiliaryFunction, AuxiliaryKind, Block, End, is_of_spindle};
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
@@ -11,7 +11,6 @@ use crate::sinumerik::program::executable::{Executable, ProgrammedStop};
 use crate::sinumerik::program::preparation::{Preparing, block_parameter};
 use crate::sinumerik::program::state::{BlockAlarm, block_name};
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::spindle::functions::SPINDLE_FUNCTIONS;
 use crate::sinumerik::state::State;
 use crate::units::ChannelNumber;
 use crate::variables::{Parameter, Place};
@@ -140,7 +139,7 @@ impl Preparing<'_> {
         let plain = function.extension.unwrap_or(0) == 0;
         if plain && is(&[0, 1, 2, 17, 30]) || self.programmed_stop(function) != ProgrammedStop::None {
             OutputTime::End
-        } else if is(&[3, 4, 5, 6, 19, 70, 40, 41, 42, 43, 44, 45]) {
+        } else if is(&[6]) || is_of_spindle(function.value) {
             OutputTime::Before
         } else {
             self.own.output_time(AuxiliaryKind::M)
@@ -201,7 +200,7 @@ pub(super) fn entry(function: &AuxiliaryFunction, place: u8, own: &ProgramParame
 fn concerns_spindle(function: &AuxiliaryFunction) -> bool {
     match function.kind {
         AuxiliaryKind::S => true,
-        AuxiliaryKind::M => SPINDLE_FUNCTIONS.iter().any(|number| is_number(function, *number)),
+        AuxiliaryKind::M => is_of_spindle(function.value),
         AuxiliaryKind::T | AuxiliaryKind::D | AuxiliaryKind::SumOffset | AuxiliaryKind::H | AuxiliaryKind::F => false,
     }
 }

@@ -6,9 +6,9 @@ use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::executable::Executable;
-use crate::sinumerik::program::positioning::{Handwheel, Positioning};
+use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
 use crate::sinumerik::program::preparation::{Preparing, block_parameter};
-use crate::sinumerik::program::state::{BlockAlarm, Run, block_name};
+use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{Parameter, short_text};
 
@@ -27,7 +27,6 @@ impl Preparing<'_> {
             let Action::Position { target, waits } = action else { continue };
             let (axis, place) = self.path_axis(block, target.axis)?;
             let programmed = run.axis_feeds.iter().find(|(of, _)| *of == axis).map(|(_, feed)| *feed);
-            let rotary = self.parameters.axes[axis].rotary;
             let by_handwheel = block.actions.iter().find_map(|action| match action {
                 Action::HandwheelFeed(of, feed) => {
                     self.path_axis(block, *of).ok().filter(|(of, _)| *of == axis).map(|_| *feed)
@@ -40,7 +39,7 @@ impl Preparing<'_> {
                 Some(_) => Handwheel::Way,
             };
             let velocity = match by_handwheel.filter(|feed| *feed > 0.0).or(programmed) {
-                Some(feed) => feed * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 },
+                Some(feed) => self.parameters.axes[axis].velocity_of_feed(feed),
                 None => self.parameters.axes[axis].positioning_velocity,
             };
             if velocity <= 0.0 {
@@ -50,13 +49,14 @@ impl Preparing<'_> {
             }
             let start = *end;
             end[place] = self.target(block, target, (axis, place), start[place], run, channel);
+            self.check_position(block, target.axis, end[place])?;
             let way = Way::line(start, *end, self.own.axes.counted);
             self.check_limits(block, &way, &start, end)?;
             #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
             let target = Position::new(end[place].round() as i64);
             let velocity = velocity.min(self.parameters.axes[axis].maximum_velocity);
             run.programmed_on_path.set(axis, false);
-            done.positions.push(Positioning { axis, target, velocity, waits: *waits, is_rapid: false, handwheel });
+            done.positions.push(AxisPositioning { axis, target, velocity, waits: *waits, is_rapid: false, handwheel });
         }
         Ok(())
     }
@@ -69,7 +69,7 @@ impl Preparing<'_> {
                 #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
                 let target = Position::new(end[place].round() as i64);
                 let velocity = self.parameters.axes[axis].maximum_velocity;
-                done.positions.push(Positioning {
+                done.positions.push(AxisPositioning {
                     axis,
                     target,
                     velocity,
@@ -83,6 +83,21 @@ impl Preparing<'_> {
 }
 
 impl Run {
+    /// The next block is not executed: the program stands before it with an alarm.
+    pub(super) fn refuse_next(&mut self, alarm: BlockAlarm) {
+        let Some(next) = self.queue.pop_front() else { return };
+        self.queue.clear();
+        self.again.clear();
+        let place = (next.origin.program, next.origin.line);
+        self.preparation = Preparation::Failed { alarm, place, block: next.block };
+    }
+
+    /// Whether the program stands before a block with 10610, while its axis still moves.
+    pub(in crate::sinumerik) fn stands_before_moving_axis(&self) -> bool {
+        let is_named = |alarm: &BlockAlarm| alarm.number == alarms::STILL_POSITIONED;
+        matches!(&self.preparation, Preparation::Failed { alarm, .. } if is_named(alarm)) && self.queue.is_empty()
+    }
+
     /// 10610: the next block names an axis that a POSA still moves.
     pub(super) fn still_positioned(&self, own: &ProgramParameters) -> Option<BlockAlarm> {
         let next = self.queue.front()?;

@@ -9,7 +9,7 @@ use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, channel_number};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
-use crate::sinumerik::program::positioning::{Handwheel, Positioning};
+use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
 use crate::sinumerik::program::state::{Change, Led, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -81,8 +81,7 @@ impl State {
                 return Held::By(Rule::MotionBlocked, axis_signal(off, control, false));
             }
             let sign = if direction[place] > 0.0 { 1 } else { -1 };
-            if let Some(pressed) = self.limited_by(&unit, sign) {
-                let input = self.axes[pressed].limits.input(pressed, sign);
+            if let Some(input) = self.limits_program(&unit, sign) {
                 return Held::By(Rule::HardwareLimitSwitch, input);
             }
             if self.axes[axis].signals.fast_stop {
@@ -120,7 +119,7 @@ impl State {
     }
 
     /// The override of an axis on its own way: of rapid traverse, or its own.
-    pub(in crate::sinumerik) fn override_of_positioning(positioning: &Positioning, stage: &Stage<'_>) -> f64 {
+    pub(in crate::sinumerik) fn override_of_positioning(positioning: &AxisPositioning, stage: &Stage<'_>) -> f64 {
         if positioning.is_rapid {
             let signals = &stage.to_nck.channels[stage.channel];
             let (code, is_active) = (signals.rapid_traverse_override(), signals.rapid_traverse_override_active());
@@ -304,7 +303,8 @@ impl State {
                 let cause = run.resetting.or(run.stopping).unwrap_or(program.cause);
                 self.log.now(place, cause, Rule::ProgramStopped, [Input::None; 3])
             }
-            (Held::By(rule, input), Travel::Waiting(_)) => {
+            (Held::By(rule, input), Travel::Waiting(_))
+            | (Held::By(rule @ Rule::HardwareLimitSwitch, input), Travel::None) => {
                 self.log.now(place, run.block_cause, rule, [input, Input::None, Input::None])
             }
             _ => {
@@ -320,7 +320,7 @@ impl State {
     fn step_positionings(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) {
         let mut index = 0;
         while let Some(&positioning) = run.positionings.get(index) {
-            let Positioning { axis, target, velocity, is_rapid, handwheel, .. } = positioning;
+            let AxisPositioning { axis, target, velocity, is_rapid, handwheel, .. } = positioning;
             let state = &self.axes[axis];
             let unit = self.unit_of(axis);
             let arrived = state.setpoint.position == target && state.setpoint.is_at_rest();
@@ -337,6 +337,7 @@ impl State {
             let on = |unit: &Unit| unit.members().all(|member| self.axes[member].enabling.is_on());
             let stopper = |unit: &Unit| unit.members().find(|member| stage.to_nck.axes[*member].feed_stop());
             let feed_disable = self.feed_disable(stage.channel, stage.to_nck);
+            let way = i8::try_from((target - state.setpoint.position).increments().signum()).unwrap_or(0);
             let held = if held == Held::Stopped {
                 held
             } else if let Some(disabled) = feed_disable {
@@ -346,6 +347,8 @@ impl State {
             } else if !unit.as_ref().is_some_and(on) {
                 let control = crate::image::axis_from_nck::position_controller_active;
                 Held::By(Rule::MotionBlocked, axis_signal(axis, control, false))
+            } else if let Some(input) = unit.as_ref().and_then(|unit| self.limits_program(unit, way)) {
+                Held::By(Rule::HardwareLimitSwitch, input)
             } else if factor <= 0.0 && is_rapid {
                 let code = of_channel.rapid_traverse_override();
                 let signal = channel_to_nck::rapid_traverse_override;
@@ -394,6 +397,15 @@ impl State {
     pub(in crate::sinumerik) fn follow_program(&mut self, unit: &Unit, parameters: &Parameters) -> bool {
         let leader = unit.leader();
         let Some(led) = self.led[leader].take() else { return false };
+        let direction = match led {
+            Led::Path { velocity, .. } => velocity,
+            Led::Target { target, .. } => (target - self.axes[leader].setpoint.position).increments() as f64,
+            Led::Rest => 0.0,
+        };
+        let sign = i8::from(direction > 0.0) - i8::from(direction < 0.0);
+        if self.limited_by(unit, sign).is_some() && self.brake_at_limit(unit, parameters) {
+            return true;
+        }
         self.axes[leader].motion = match led {
             Led::Rest => return true,
             Led::Path { position, velocity } => crate::motion::Motion::Interpolated { position, velocity },

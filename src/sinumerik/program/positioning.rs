@@ -6,7 +6,7 @@ use crate::units::{AxisNumber, Position};
 
 /// The movement of a positioning axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Positioning {
+pub(in crate::sinumerik) struct AxisPositioning {
     pub axis: AxisNumber,
     /// In machine coordinates.
     pub target: Position,

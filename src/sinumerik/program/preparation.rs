@@ -2,8 +2,8 @@
 
 use crate::control::{Owner, Value};
 use crate::image::ToNck;
-use crate::motion::path::{Feed, PathBlock, PerPathAxis, Way};
-use crate::nc_program::{Action, AxisIndex, Block, Prepared, ProgramAlarm};
+use crate::motion::path::{Feed, PATH_AXES, PathBlock, PerPathAxis, Way};
+use crate::nc_program::{Action, AxisIndex, Block, INCH, Prepared, ProgramAlarm, g};
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::exchange::programs::{Availability, availability, exchanges};
@@ -12,7 +12,7 @@ use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::environment::Channel;
-use crate::sinumerik::program::executable::{Behind, Criterion, Executable, ReadBlock};
+use crate::sinumerik::program::executable::{Criterion, Executable, ReadBlock, StateBehind};
 use crate::sinumerik::program::geometry::{self, BadCircle};
 use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name, on_path};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
@@ -23,6 +23,9 @@ const AHEAD: usize = 80;
 
 /// Blocks that only calculate in one call of the preparation.
 const CALCULATIONS: usize = 100;
+
+/// The farthest position of an axis, in increments: 1,000 km. Positions beyond it have no meaning, and their sums would not fit.
+const FARTHEST: f64 = 1e9 * Position::PER_USER_UNIT;
 
 /// A function of the control that OpenNCK does not have.
 pub(super) const NOT_ACTIVE: AlarmNumber = AlarmNumber(12553);
@@ -84,6 +87,7 @@ impl Run {
             channel.take_run(self);
             let written = channel.written.len() + channel.tables.len();
             let next = self.executed + self.queue.len() as u64;
+            let before = self.interpreter.clone();
             let prepared = self.interpreter.step(channel);
             self.r_log.extend(channel.r_written.drain(..).map(|(index, before)| (next, index, before)));
             // Written data act on the next block: they become effective at the end of the stage.
@@ -91,7 +95,7 @@ impl Run {
             match prepared {
                 Ok(Prepared::Block(block)) => {
                     let behind = self.behind_now();
-                    self.take_block(Box::new(ReadBlock { block: *block, behind }), preparing, channel);
+                    self.take_block(Box::new(ReadBlock { block: *block, before, behind }), preparing, channel);
                 }
                 Ok(Prepared::Calculated(origin)) if preparing.stops_after_calculations => {
                     let modal = self.interpreter.modal();
@@ -118,13 +122,14 @@ impl Run {
     }
 
     /// The state of preparation now.
-    pub(in crate::sinumerik) fn behind_now(&self) -> Behind {
-        Behind {
+    pub(in crate::sinumerik) fn behind_now(&self) -> StateBehind {
+        StateBehind {
             interpreter: self.interpreter.clone(),
             axis_feeds: self.axis_feeds.clone(),
             path_override: self.path_override,
             programmed_on_path: self.programmed_on_path,
             offsets: self.offsets,
+            counted: self.counted,
             end: self.end,
         }
     }
@@ -141,8 +146,8 @@ impl Run {
         self.preparation = Preparation::Failed { alarm: BlockAlarm::of(alarm), place, block: None };
     }
 
-    /// A correctable alarm was cancelled: its block is read again.
-    pub(in crate::sinumerik) fn read_again(&mut self) {
+    /// A block with an alarm is prepared again as it was read.
+    fn put_back_failed(&mut self) {
         if let Preparation::Failed { block, .. } = &mut self.preparation {
             if let Some(block) = block.take() {
                 self.again.push_front(block);
@@ -158,14 +163,15 @@ impl Run {
 
     /// The blocks behind these are prepared again, from these positions.
     pub(in crate::sinumerik) fn reorganise_behind(&mut self, count: usize, position: PerPathAxis) {
-        self.read_again();
+        self.put_back_failed();
         while self.queue.len() > count {
             if let Some(block) = self.queue.pop_back().and_then(|one| one.block) {
                 self.again.push_front(block);
             }
         }
         let behind = self.queue.back().and_then(Executable::behind).unwrap_or(&self.behind);
-        (self.programmed_on_path, self.offsets) = (behind.programmed_on_path, behind.offsets);
+        (self.programmed_on_path, self.offsets, self.counted) =
+            (behind.programmed_on_path, behind.offsets, behind.counted);
         self.end = position;
     }
 
@@ -197,7 +203,7 @@ impl Run {
                 (read.behind.end, read.behind.axis_feeds) = (end, self.axis_feeds.clone());
                 (read.behind.path_override, read.behind.programmed_on_path) =
                     (self.path_override, self.programmed_on_path);
-                read.behind.offsets = self.offsets;
+                (read.behind.offsets, read.behind.counted) = (self.offsets, self.counted);
                 self.queue.push_back(Executable { block: Some(read), ..executable });
             }
             Err(alarm) => {
@@ -220,11 +226,7 @@ impl Preparing<'_> {
         let mut done = Executable::new(block.origin.clone(), block.modal);
         done.is_executable = block.is_executable();
         done.end = block.end;
-        done.criterion = match block.modal.index(12) {
-            2 => Criterion::Coarse,
-            3 => Criterion::Interpolation,
-            _ => Criterion::Fine,
-        };
+        done.criterion = Criterion::of(block.modal);
         if geometry::is_per_revolution(block) && !block.axes.is_empty() {
             self.known_spindle(block, 0)?;
         }
@@ -236,18 +238,21 @@ impl Preparing<'_> {
         for word in &block.axes {
             let (axis, place) = self.path_axis(block, word.axis)?;
             end[place] = self.target(block, word, (axis, place), start[place], run, channel);
+            self.check_position(block, word.axis, end[place])?;
             run.programmed_on_path.set(axis, true);
         }
-        let turns = matches!(block.modal.index(1), 3 | 4) && (!block.axes.is_empty() || !block.circle.is_empty());
+        let turns =
+            (block.modal.is(g::G2) || block.modal.is(g::G3)) && (!block.axes.is_empty() || !block.circle.is_empty());
         let way = if turns {
             let offset = |place: usize| self.offset(block, self.own.axes.path[place], channel);
-            let way = geometry::arc(block, self.own, start, *end, offset).map_err(|bad| bad_circle(block, bad))?;
+            let way = geometry::arc(block, (self.own, run.counted), start, *end, offset)
+                .map_err(|bad| bad_circle(block, bad))?;
             *end = way.end();
             Some(way)
         } else if block.axes.is_empty() {
             None
         } else {
-            Some(Way::line(start, *end, self.own.axes.counted))
+            Some(Way::line(start, *end, run.counted))
         };
         if let Some(way) = &way {
             self.check_limits(block, way, &start, end)?;
@@ -290,6 +295,14 @@ impl Preparing<'_> {
         found.ok_or_else(|| alarm(block, alarms::WRONG_AXIS_TYPE, self.name(name)))
     }
 
+    /// 14088: a position that is too far away to be one.
+    pub(super) fn check_position(&self, block: &Block, name: AxisIndex, position: f64) -> Result<(), BlockAlarm> {
+        if position.abs() <= FARTHEST {
+            return Ok(());
+        }
+        Err(alarm(block, alarms::POSITION_TOO_LARGE, self.name(name)))
+    }
+
     pub(super) fn name(&self, name: AxisIndex) -> Parameter {
         Parameter::Text(short_text(self.own.axes.names.name(name)))
     }
@@ -314,17 +327,7 @@ impl Preparing<'_> {
                 }
                 Action::Reference(names) => {
                     for name in names {
-                        let named = self.own.axes.machine_axes.get(usize::from(name.0));
-                        if named.is_some_and(|axis| self.parameters.axes[*axis].spindle.is_some()) {
-                            return Err(alarm(block, alarms::WRONG_AXIS_TYPE, self.name(*name)));
-                        }
-                        let axis = self
-                            .path_axis(block, *name)
-                            .ok()
-                            // No axis of an open grouping is referenced by itself, neither its leading axis (E-15, P-60).
-                            .filter(|(axis, _)| !self.open.contains(*axis))
-                            .ok_or_else(|| alarm(block, alarms::REFERENCING_COUPLED, self.name(*name)))?;
-                        done.references.push(axis.0);
+                        done.references.push(self.referenced_axis(block, *name)?);
                     }
                 }
                 Action::Message(_) | Action::CycleAlarm { .. } | Action::NewConfiguration | Action::EndOverlays => {
@@ -356,10 +359,7 @@ impl Preparing<'_> {
                         done.actions.push(action.clone());
                     }
                     for (name, value) in axes {
-                        let (axis, _) = self.path_axis(block, *name)?;
-                        let rotary = self.parameters.axes[axis].rotary;
-                        let limit = geometry::length(*value, block, rotary);
-                        self.set_working_area(axis, *is_upper, limit, channel);
+                        self.set_working_area(block, (*name, *value), *is_upper, channel)?;
                     }
                     // The limits act on the next block.
                     run.pauses = true;
@@ -368,11 +368,7 @@ impl Preparing<'_> {
                 Action::PathHandwheelFeed(_) => done.by_handwheel = true,
                 Action::WaitForPosition(names) => {
                     for name in names {
-                        let (axis, _) = self.path_axis(block, *name)?;
-                        if run.programmed_on_path.contains(axis) {
-                            // The program moves it on the path: it is no positioning axis.
-                            return Err(alarm(block, alarms::WRONG_AXIS_TYPE, self.name(*name)));
-                        }
+                        self.check_positioning_axis(block, *name, run)?;
                     }
                     done.actions.push(action.clone());
                 }
@@ -386,8 +382,11 @@ impl Preparing<'_> {
                     let axis = self.known_spindle(block, spindle.unwrap_or(0))?;
                     done.dwell_turns = Some((axis, revolutions * 360.0 * Position::PER_USER_UNIT));
                 }
-                Action::SpindlePosition { spindle, .. } => {
-                    self.known_spindle(block, spindle.unwrap_or(0))?;
+                Action::SpindlePosition { spindle, value, dimension, .. } => {
+                    let axis = self.known_spindle(block, spindle.unwrap_or(0))?;
+                    if !self.parameters.axes[axis].is_within_modulo(*value, *dimension) {
+                        return Err(alarm(block, alarms::OUTSIDE_MODULO_RANGE, Parameter::Axis(axis)));
+                    }
                     done.actions.push(action.clone());
                 }
                 Action::WaitForSpindle(spindles) => {
@@ -400,6 +399,7 @@ impl Preparing<'_> {
                     self.path_axis(block, *name)?;
                     done.actions.push(action.clone());
                 }
+                Action::FeedGroup(names) => run.counted = self.feed_group(block, names)?,
                 Action::Override(percent) => run.path_override = percent / 100.0,
                 Action::Synchronised(_) | Action::Cancel(_) => done.actions.push(action.clone()),
             }
@@ -419,13 +419,53 @@ impl Preparing<'_> {
     }
 
     /// G25, G26: SD43430 and SD43420, in the basic system.
-    fn set_working_area(&self, axis: AxisNumber, is_upper: bool, limit: f64, channel: &mut Channel<'_>) {
+    fn set_working_area(
+        &self,
+        block: &Block,
+        (name, value): (AxisIndex, f64),
+        is_upper: bool,
+        channel: &mut Channel<'_>,
+    ) -> Result<(), BlockAlarm> {
+        let (axis, _) = self.path_axis(block, name)?;
+        let limit = geometry::length(value, block, self.parameters.axes[axis].rotary);
         let inches = self.parameters.is_inch && !self.parameters.axes[axis].rotary;
-        let value = limit / Position::PER_USER_UNIT / if inches { geometry::INCH } else { 1.0 };
+        let value = limit / Position::PER_USER_UNIT / if inches { INCH } else { 1.0 };
         let number = if is_upper { 43420 } else { 43430 };
         if let Ok(target) = Target::new(number, Owner::Axis(axis), 0) {
             channel.written.push((target, Value::Real(value)));
         }
+        Ok(())
+    }
+
+    /// An axis of G74: no spindle, and no axis of an open grouping, neither its leading axis (E-15, P-60).
+    fn referenced_axis(&self, block: &Block, name: AxisIndex) -> Result<AxisNumber, BlockAlarm> {
+        let named = self.own.axes.machine_axes.get(usize::from(name.0));
+        if named.is_some_and(|axis| self.parameters.axes[*axis].spindle.is_some()) {
+            return Err(alarm(block, alarms::WRONG_AXIS_TYPE, self.name(name)));
+        }
+        let axis = self.path_axis(block, name).ok().filter(|(axis, _)| !self.open.contains(*axis));
+        axis.map(|(axis, _)| axis).ok_or_else(|| alarm(block, alarms::REFERENCING_COUPLED, self.name(name)))
+    }
+
+    /// The axes of FGROUP, as places in the path; without one the geometry axes.
+    fn feed_group(&self, block: &Block, names: &[AxisIndex]) -> Result<[bool; PATH_AXES], BlockAlarm> {
+        if names.is_empty() {
+            return Ok(self.own.axes.counted);
+        }
+        let mut counted = [false; PATH_AXES];
+        for name in names {
+            counted[self.path_axis(block, *name)?.1] = true;
+        }
+        Ok(counted)
+    }
+
+    /// 14092 for WAITP of an axis that the program moves on the path: it is no positioning axis.
+    fn check_positioning_axis(&self, block: &Block, name: AxisIndex, run: &Run) -> Result<(), BlockAlarm> {
+        let (axis, _) = self.path_axis(block, name)?;
+        if run.programmed_on_path.contains(axis) {
+            return Err(alarm(block, alarms::WRONG_AXIS_TYPE, self.name(name)));
+        }
+        Ok(())
     }
 }
 

@@ -14,7 +14,7 @@
 use crate::control::SearchKind;
 use crate::image::{ToNck, channel_to_nck};
 use crate::motion::path::{Feed, Path, PathBlock, Way};
-use crate::nc_program::{Action, AuxiliaryKind, BlockTarget, Interpreter, Library};
+use crate::nc_program::{Action, AuxiliaryKind, BlockTarget, Interpreter, Library, is_of_spindle, predefined_group};
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::inputs::channel_signal;
 use crate::sinumerik::nck::Nck;
@@ -22,9 +22,9 @@ use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::auxiliary::{Entry, Package};
-use crate::sinumerik::program::execution::Sources;
+use crate::sinumerik::program::execution::ProgramMemory;
 use crate::sinumerik::program::path::Stage;
-use crate::sinumerik::program::search_state::{Progress, Search};
+use crate::sinumerik::program::search_state::{Search, SearchProgress};
 use crate::sinumerik::program::state::{BlockAlarm, Phase, Preparation, ProgramState, Run, block_name, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -39,12 +39,9 @@ fn collected_group(entry: &Entry, own: &ProgramParameters) -> Option<u32> {
     if let Some(group) = own.auxiliary_group(entry.kind, entry.extension, entry.value) {
         return (group > 1).then_some(group);
     }
-    #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
-    let number = entry.value.round() as i64;
-    match (entry.kind, number) {
-        (AuxiliaryKind::M, 3..=5 | 19 | 70) => Some(2),
-        (AuxiliaryKind::S, _) => Some(3),
-        (AuxiliaryKind::M, 40..=45) => Some(4),
+    match entry.kind {
+        AuxiliaryKind::M if is_of_spindle(entry.value) => predefined_group(entry.value.round()).map(u32::from),
+        AuxiliaryKind::S => Some(3),
         _ => None,
     }
 }
@@ -127,7 +124,7 @@ impl State {
         run.search = Some(Box::new(Search {
             kind,
             target: target.to_owned(),
-            progress: Progress::Searching,
+            progress: SearchProgress::Searching,
             collected: Vec::new(),
             approach: None,
             begun: false,
@@ -145,16 +142,16 @@ impl State {
 
     /// A cycle of a search that executes nothing, of a search that has found its block, or of its action blocks. Returns whether the program
     /// does nothing else in this cycle.
-    pub(super) fn run_search(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> bool {
+    pub(super) fn run_search(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut ProgramMemory<'_>) -> bool {
         let Some(search) = run.search.as_deref() else { return false };
         let runs = matches!(self.programs[stage.channel].state, ProgramState::Running | ProgramState::Waiting);
         match search.progress {
-            Progress::Searching if search.calculates() => {
+            SearchProgress::Searching if search.calculates() => {
                 self.calculate(run, stage, sources);
                 true
             }
-            Progress::Searching => false,
-            Progress::Found if search.kind == SearchKind::ProgramTest => {
+            SearchProgress::Searching => false,
+            SearchProgress::Found if search.kind == SearchKind::ProgramTest => {
                 // The setpoints take the positions of the machine again.
                 let axes = stage.parameters.channels[stage.channel].axes;
                 if axes.iter().all(|axis| self.axes[axis].signals.disabled_at().is_none()) {
@@ -162,31 +159,31 @@ impl State {
                 }
                 true
             }
-            Progress::Found => {
+            SearchProgress::Found => {
                 if runs {
                     self.begin_actions(run, stage);
                 }
                 true
             }
-            Progress::Acting => {
+            SearchProgress::Acting => {
                 // The last action block is output when nothing waits behind it.
                 if !self.programs[stage.channel].output.is_waiting() {
-                    self.search_goes_on(run, stage, Progress::LastAction, Rule::SearchActions, Input::None);
+                    self.search_goes_on(run, stage, SearchProgress::LastAction, Rule::SearchActions, Input::None);
                 }
                 true
             }
-            Progress::LastAction | Progress::WaitsForPlc => {
+            SearchProgress::LastAction | SearchProgress::WaitsForPlc => {
                 let done = stage.to_nck.channels[stage.channel].plc_action_completed();
                 let waits = stage.parameters.search_waits_for_plc && !done;
                 let is_output = !self.programs[stage.channel].output.is_busy();
                 if is_output && !waits {
                     self.search_is_ready(run, stage);
-                } else if is_output && search.progress == Progress::LastAction {
-                    self.search_goes_on(run, stage, Progress::WaitsForPlc, Rule::SearchActed, Input::None);
+                } else if is_output && search.progress == SearchProgress::LastAction {
+                    self.search_goes_on(run, stage, SearchProgress::WaitsForPlc, Rule::SearchActed, Input::None);
                 }
                 true
             }
-            Progress::Ready => {
+            SearchProgress::Ready => {
                 if runs {
                     self.begin_approach(run, stage);
                 }
@@ -195,7 +192,14 @@ impl State {
         }
     }
 
-    fn search_goes_on(&mut self, run: &mut Run, stage: &Stage<'_>, to: Progress, rule: Rule, input: Input) -> EventId {
+    fn search_goes_on(
+        &mut self,
+        run: &mut Run,
+        stage: &Stage<'_>,
+        to: SearchProgress,
+        rule: Rule,
+        input: Input,
+    ) -> EventId {
         let before = self.programs[stage.channel].search_cause;
         let event = self.log.note_one(Place::Channel(stage.channel), rule, input, before);
         self.programs[stage.channel].search_cause = event;
@@ -206,7 +210,7 @@ impl State {
     }
 
     /// Calculates up to the target.
-    fn calculate(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) {
+    fn calculate(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut ProgramMemory<'_>) {
         let Some(search) = &mut run.search else { return };
         if !std::mem::replace(&mut search.begun, true) {
             return;
@@ -289,7 +293,7 @@ impl State {
         let Some(kind) = run.search.as_ref().map(|search| search.kind) else { return };
         let name = run.queue.front().map(|block| block.origin.name.clone()).unwrap_or_default();
         let input = if name.is_empty() { Input::None } else { Input::Block(block_name(&name)) };
-        let cause = self.search_goes_on(run, stage, Progress::Found, Rule::SearchFound, input);
+        let cause = self.search_goes_on(run, stage, SearchProgress::Found, Rule::SearchFound, input);
         // A block that calculates is read again when the program goes on.
         let calculates = run.queue.front().is_some_and(|block| block.stands_before);
         if calculates {
@@ -325,7 +329,7 @@ impl State {
         let Some(search) = &mut run.search else { return };
         let collected = std::mem::take(&mut search.collected);
         if collected.is_empty() {
-            self.search_goes_on(run, stage, Progress::LastAction, Rule::SearchActions, Input::None);
+            self.search_goes_on(run, stage, SearchProgress::LastAction, Rule::SearchActions, Input::None);
             return;
         }
         // M, S and H functions have their own places in each action block.
@@ -349,7 +353,7 @@ impl State {
             package.push(entry);
         }
         packages.push(package);
-        let to = if packages.len() > 1 { Progress::Acting } else { Progress::LastAction };
+        let to = if packages.len() > 1 { SearchProgress::Acting } else { SearchProgress::LastAction };
         let event = self.search_goes_on(run, stage, to, Rule::SearchActions, Input::None);
         for package in packages {
             self.programs[stage.channel].output.add(&package, event, false);
@@ -365,7 +369,7 @@ impl State {
             } else {
                 Input::None
             };
-        let cause = self.search_goes_on(run, stage, Progress::Ready, Rule::SearchReady, input);
+        let cause = self.search_goes_on(run, stage, SearchProgress::Ready, Rule::SearchReady, input);
         let shown = [Parameter::Channel(stage.channel), Parameter::None, Parameter::None, Parameter::None];
         self.alarms.raise(alarms::CONTINUE_AFTER_SEARCH, Place::Channel(stage.channel), shown, cause);
         self.stop_program(stage.channel, cause);

@@ -9,7 +9,7 @@ use crate::sinumerik::program::auxiliary::{Entry, Output};
 
 /// How far a search is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum Progress {
+pub(in crate::sinumerik) enum SearchProgress {
     /// 33.4: it looks for the block.
     Searching,
     /// The block was found: the axes of SERUPRO get their real positions back; in types 2 and 4, NC start outputs action blocks.
@@ -30,7 +30,7 @@ pub(in crate::sinumerik) struct Search {
     pub kind: SearchKind,
     /// The block, as the operator names it.
     pub target: String,
-    pub progress: Progress,
+    pub progress: SearchProgress,
     /// The auxiliary functions that are output in action blocks.
     pub collected: Vec<Entry>,
     /// Where the approach leads to.
@@ -58,18 +58,19 @@ impl Search {
 
     /// 33.4.
     pub(in crate::sinumerik) fn is_searching(&self) -> bool {
-        self.progress == Progress::Searching
+        self.progress == SearchProgress::Searching
     }
 
     /// 32.3.
     pub(in crate::sinumerik) fn acts(&self, output: &Output) -> bool {
-        self.progress == Progress::Acting || self.progress == Progress::LastAction && output.is_busy()
+        self.progress == SearchProgress::Acting || self.progress == SearchProgress::LastAction && output.is_busy()
     }
 
     /// 32.6: until NC start.
     pub(in crate::sinumerik) fn is_last_action(&self) -> bool {
         let has_actions = matches!(self.kind, SearchKind::Contour | SearchKind::EndPoint);
-        has_actions && matches!(self.progress, Progress::LastAction | Progress::WaitsForPlc | Progress::Ready)
+        has_actions
+            && matches!(self.progress, SearchProgress::LastAction | SearchProgress::WaitsForPlc | SearchProgress::Ready)
     }
 
     /// 318.1.

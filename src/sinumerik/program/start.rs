@@ -3,13 +3,13 @@
 use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_from_nck, mode_group_to_nck};
 use crate::motion::path::{PATH_AXES, Path, PathLimits};
 use crate::nc_program::{Interpreter, Library};
-use crate::sinumerik::alarms::{Reaction, START_WITHOUT_REFERENCE, programs as alarms};
+use crate::sinumerik::alarms::{Alarm, Reaction, START_WITHOUT_REFERENCE, programs as alarms};
 use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::control::skip_levels;
-use crate::sinumerik::program::executable::Behind;
+use crate::sinumerik::program::executable::StateBehind;
 use crate::sinumerik::program::state::{Phase, Preparation, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -33,7 +33,6 @@ impl State {
         let Some(own) = parameters.programs[channel].as_deref() else { return };
         let signals = &to_nck.channels[channel];
         let mode = self.mode_groups[group].mode;
-        let place = Place::Channel(channel);
         let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
         let of_group = &to_nck.mode_groups[group];
         let stops = signals.nc_stop()
@@ -51,17 +50,10 @@ impl State {
         let may_start = self.is_referenced(channel, parameters)
             || self.may_start_unreferenced(channel, mode == Mode::Mda, parameters);
         if !may_start {
-            let referenced = channel_from_nck::all_axes_requiring_reference_point_are_referenced;
-            let missing = channel_signal(channel, referenced, false);
-            let event = self.log.note(place, Rule::StartRefused, [pressed, missing, Input::None], EventId::NONE);
-            let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
-            self.alarms.raise(START_WITHOUT_REFERENCE, place, shown, event);
+            self.refuse_unreferenced(channel, pressed);
             return;
         }
-        let hindering = self.alarms.first_alarm(|of, alarm| {
-            alarm.reaction.has(Reaction::START_DISABLED) && self.owners.concerns_channel(parameters, of, channel)
-        });
-        if let Some((number, _)) = hindering {
+        if let Some(number) = self.start_is_locked(channel, parameters) {
             let inputs = [pressed, Input::Alarm(number.0), Input::None];
             self.refuse_start(channel, alarms::ALARM_PENDING, Rule::StartHinderedByAlarm, inputs);
             return;
@@ -91,16 +83,49 @@ impl State {
                         self.release_spindles(channel, parameters, self.programs[channel].cause);
                     }
                     None if mode == Mode::Mda => {}
-                    None => {
-                        let event = self.log.note_one(place, Rule::NoProgramSelected, pressed, EventId::NONE);
-                        let name = self.programs[channel].selected.as_deref().unwrap_or("");
-                        let name = Parameter::Text(short_text(name));
-                        let shown = [Parameter::Channel(channel), Parameter::None, name, Parameter::None];
-                        self.alarms.raise(alarms::NO_PROGRAM, place, shown, event);
-                    }
+                    None => self.refuse_missing_program(channel, pressed),
                 }
             }
         }
+    }
+
+    /// 14014: NC start without a selected program, or the selected one does not exist.
+    fn refuse_missing_program(&mut self, channel: ChannelNumber, pressed: Input) {
+        let place = Place::Channel(channel);
+        let event = self.log.note_one(place, Rule::NoProgramSelected, pressed, EventId::NONE);
+        let name = Parameter::Text(short_text(self.programs[channel].selected.as_deref().unwrap_or("")));
+        let shown = [Parameter::Channel(channel), Parameter::None, name, Parameter::None];
+        self.alarms.raise(alarms::NO_PROGRAM, place, shown, event);
+    }
+
+    /// 10203: NC start although an axis is not referenced (MD20700).
+    fn refuse_unreferenced(&mut self, channel: ChannelNumber, pressed: Input) {
+        let place = Place::Channel(channel);
+        let referenced = channel_from_nck::all_axes_requiring_reference_point_are_referenced;
+        let missing = channel_signal(channel, referenced, false);
+        let event = self.log.note(place, Rule::StartRefused, [pressed, missing, Input::None], EventId::NONE);
+        let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
+        self.alarms.raise(START_WITHOUT_REFERENCE, place, shown, event);
+    }
+
+    /// Whether an alarm at this place disables NC start of a channel.
+    pub(in crate::sinumerik) fn locks_start(
+        &self,
+        (place, alarm): (Place, &Alarm),
+        channel: ChannelNumber,
+        parameters: &Parameters,
+    ) -> bool {
+        alarm.reaction.has(Reaction::START_DISABLED) && self.owners.concerns_channel(parameters, place, channel)
+    }
+
+    /// The first pending alarm that disables NC start of a channel.
+    pub(in crate::sinumerik) fn start_is_locked(
+        &self,
+        channel: ChannelNumber,
+        parameters: &Parameters,
+    ) -> Option<AlarmNumber> {
+        let locks = |place, alarm: &Alarm| self.locks_start((place, alarm), channel, parameters);
+        self.alarms.first_alarm(locks).map(|(number, _)| number)
     }
 
     /// NC start has no effect: a message says why.
@@ -167,15 +192,16 @@ impl State {
         event: EventId,
     ) -> Run {
         let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
-        let settable = interpreter.modal().index(8);
-        let offsets = on_path(&own.axes.path, |axis| self.programs[channel].settable_offset(settable, axis));
+        let modal = interpreter.modal();
+        let offsets = on_path(&own.axes.path, |axis| self.programs[channel].active_offset(modal, axis));
         let limits = limits(own, parameters);
-        let behind = Behind {
+        let behind = StateBehind {
             interpreter: interpreter.clone(),
             axis_feeds: Vec::new(),
             path_override: 1.0,
             programmed_on_path: AxisSet::NONE,
             offsets,
+            counted: own.axes.counted,
             end: position,
         };
         Run {
@@ -228,6 +254,7 @@ impl State {
             handwheel_share: 0.0,
             programmed_on_path: AxisSet::NONE,
             offsets,
+            counted: own.axes.counted,
             waits: None,
             starts: Vec::new(),
             search: None,

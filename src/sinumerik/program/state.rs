@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::SearchKind;
 use crate::motion::path::{PATH_AXES, Path, PathLimits, PerPathAxis};
-use crate::nc_program::{AxisIndex, Interpreter, Modal, ProgramAlarm, SynchronisedAction};
+use crate::nc_program::{AxisIndex, Interpreter, Modal, ProgramAlarm, SynchronisedAction, g};
 use crate::sinumerik::exchange::state::Claim;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::auxiliary::Output;
-use crate::sinumerik::program::executable::{Behind, Executable, ReadBlock};
+use crate::sinumerik::program::executable::{Executable, ReadBlock, StateBehind};
 use crate::sinumerik::program::main_run::MainRun;
-use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::positioning::AxisPositioning;
 use crate::sinumerik::program::search_state::Search;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, BlockName, EventId, Parameter};
@@ -120,18 +120,38 @@ impl ChannelProgram {
 
     /// FFWON: G group 24.
     pub(in crate::sinumerik) fn has_feed_forward(&self) -> bool {
-        self.modal.index(24) == 2
+        self.modal.is(g::FFWON)
     }
 
-    /// Sets or clears a mark of the channel.
-    pub(in crate::sinumerik) fn set_mark(&mut self, mark: u16, is_set: bool) {
-        let bit = 1_u128 << (mark % 128);
-        self.marks = if is_set { self.marks | bit } else { self.marks & !bit };
+    /// SETM.
+    pub(in crate::sinumerik) fn set_marks(&mut self, marks: &[u16]) {
+        self.marks |= bits(marks);
+    }
+
+    /// CLEARM; without a mark, all of them.
+    pub(in crate::sinumerik) fn clear_marks(&mut self, marks: &[u16]) {
+        self.marks &= if marks.is_empty() { 0 } else { !bits(marks) };
+    }
+
+    /// Whether it has a mark.
+    pub(in crate::sinumerik) fn has_mark(&self, mark: u16) -> bool {
+        self.marks & bits(&[mark]) != 0
+    }
+
+    /// The channel goes on behind a WAITM or WAITMC: its mark is taken away after the next judgement of waits.
+    pub(in crate::sinumerik) fn pass_mark(&mut self, mark: u16) {
+        self.set_marks(&[mark]);
+        self.passed_marks |= bits(&[mark]);
     }
 
     /// The block search.
     pub(in crate::sinumerik) fn search(&self) -> Option<&Search> {
         self.run.as_ref()?.search.as_deref()
+    }
+
+    /// The settable offset of an axis with these G functions.
+    pub(in crate::sinumerik) fn active_offset(&self, modal: Modal, axis: AxisNumber) -> Position {
+        modal.settable_offset().map_or(Position::ZERO, |index| self.settable_offset(index, axis))
     }
 
     /// The settable offset of an axis.
@@ -208,6 +228,11 @@ impl BlockAlarm {
     }
 }
 
+/// Marks of a channel, a bit each.
+fn bits(marks: &[u16]) -> u128 {
+    marks.iter().fold(0, |bits, mark| bits | 1 << (mark % 128))
+}
+
 /// The name of a block as causes show it.
 pub(in crate::sinumerik) fn block_name(name: &str) -> BlockName {
     let mut short = BlockName::new();
@@ -282,7 +307,7 @@ pub(in crate::sinumerik) struct Run {
     /// The feeds of positioning axes (FA), in mm/min or rev/min.
     pub axis_feeds: Vec<(AxisNumber, f64)>,
     /// POS and POSA that move.
-    pub positionings: Vec<Positioning>,
+    pub positionings: Vec<AxisPositioning>,
     /// The path of a block with a feed has not begun: it waits for the speed of the spindles.
     pub awaits_spindles: bool,
     /// The speeds and directions that prepared blocks have given to spindles: their numbers, rev/min, and 3, 4 or 5.
@@ -323,7 +348,7 @@ pub(in crate::sinumerik) struct Run {
     pub referencing: AxisSet,
     pub referencing_started: AxisSet,
     /// Behind the last block that was executed.
-    pub behind: Behind,
+    pub behind: StateBehind,
     /// How many blocks were executed.
     pub executed: u64,
     /// R parameters that preparation has written ahead: before which block, index, value before.
@@ -350,6 +375,8 @@ pub(in crate::sinumerik) struct Run {
     pub programmed_on_path: AxisSet,
     /// The offsets with which the axes of the path were last programmed, in increments.
     pub offsets: PerPathAxis,
+    /// The axes that the path feed refers to: the geometry axes, or those of FGROUP.
+    pub counted: [bool; PATH_AXES],
     /// What it waits for in other channels.
     pub waits: Option<WaitFor>,
     /// The programs that it starts in other channels, at the end of the stage.

@@ -11,11 +11,11 @@ use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::program::auxiliary::Package;
 use crate::sinumerik::program::environment::Channel;
-use crate::sinumerik::program::execution::Sources;
+use crate::sinumerik::program::execution::ProgramMemory;
 use crate::sinumerik::program::geometry;
 use crate::sinumerik::program::outputs::entry;
 use crate::sinumerik::program::path::Stage;
-use crate::sinumerik::program::positioning::{Handwheel, Positioning};
+use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
 use crate::sinumerik::program::state::{ActiveAction, Run};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::{Order, OrderedBy};
@@ -61,7 +61,7 @@ impl State {
     }
 
     /// Evaluates the actions of a channel whose program runs or is stopped.
-    pub(super) fn run_actions(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) {
+    pub(super) fn run_actions(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut ProgramMemory<'_>) {
         run.read_in_disabled = false;
         let channel = stage.channel;
         if self.programs[channel].actions.is_empty() {
@@ -78,6 +78,7 @@ impl State {
             prepared_spindles: Vec::new(),
             owners: &self.owners,
             single: &self.single,
+            coupled: self.coupled_axes(),
             all: stage.parameters,
             r_parameters: &mut self.r_parameters,
             library: sources.library,
@@ -129,17 +130,8 @@ impl State {
                 // The program does not wait for it.
                 self.programs[channel].output.add(&package, run.block_cause, true);
             }
-            Effect::SetMarks(marks) => {
-                for mark in marks {
-                    self.programs[channel].set_mark(mark, true);
-                }
-            }
-            Effect::ClearMarks(marks) if marks.is_empty() => self.programs[channel].marks = 0,
-            Effect::ClearMarks(marks) => {
-                for mark in marks {
-                    self.programs[channel].set_mark(mark, false);
-                }
-            }
+            Effect::SetMarks(marks) => self.programs[channel].set_marks(&marks),
+            Effect::ClearMarks(marks) => self.programs[channel].clear_marks(&marks),
             Effect::ReadInDisable => run.read_in_disabled = true,
             Effect::Failed(number) => self.raise_of_action(AlarmNumber(number), [Parameter::None; 3], run, stage),
         }
@@ -176,10 +168,14 @@ impl State {
             return;
         }
         let parameters = &stage.parameters.axes[axis];
+        if !parameters.is_within_modulo(value, dimension) {
+            let reason = Parameter::Number(alarms::OUTSIDE_MODULO_RANGE.0.into());
+            self.raise_of_action(alarms::COMMAND_AXIS, [Parameter::Axis(axis), reason, Parameter::None], run, stage);
+            return;
+        }
         let programmed = feed.or_else(|| run.axis_feeds.iter().find(|(of, _)| *of == axis).map(|(_, feed)| *feed));
-        let turns = if parameters.rotary { 360.0 } else { 1.0 };
         let velocity = programmed
-            .map_or(parameters.positioning_velocity, |feed| feed * Position::PER_USER_UNIT / 60.0 * turns)
+            .map_or(parameters.positioning_velocity, |feed| parameters.velocity_of_feed(feed))
             .min(parameters.maximum_velocity);
         if velocity <= 0.0 {
             let reason = Parameter::Number(alarms::NO_POSITIONING_VELOCITY.0.into());
@@ -199,7 +195,7 @@ impl State {
             return;
         }
         run.positionings.retain(|one| one.axis != axis);
-        run.positionings.push(Positioning {
+        run.positionings.push(AxisPositioning {
             axis,
             target,
             velocity,
@@ -311,7 +307,7 @@ impl ActiveAction {
                     Some(Effect::Move { axis: axis.0, value, dimension: *dimension, feed: None, id: self.action.id })
                 }),
                 MainRunAction::Auxiliary { kind, extension, value } => value
-                    .number(environment)
+                    .auxiliary(*kind, environment)
                     .map(|value| Some(Effect::Output { kind: *kind, extension: extension.unwrap_or(0), value })),
                 MainRunAction::Assign { name, indices, value } => {
                     value.value(environment).and_then(|value| assign(environment, name, indices, &value)).map(|()| None)
@@ -351,5 +347,5 @@ fn assign(environment: &mut Channel<'_>, name: &str, indices: &[Value], value: &
         return Ok(());
     }
     let variable = SystemVariable { name, indices };
-    environment.set_system(&variable, value).map_err(crate::nc_program::Refusal::number)
+    environment.set_system(&variable, value).map_err(crate::nc_program::VariableRefusal::number)
 }

@@ -1,7 +1,7 @@
 //! Targets of axis words in machine coordinates: offsets, incremental dimensions, limits. The preparation of a block calls it.
 
 use crate::motion::path::{PerPathAxis, Way};
-use crate::nc_program::{AxisWord, Block, Dimension};
+use crate::nc_program::{AxisWord, Block, Dimension, g};
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::axis::limits::selected_limit;
 use crate::sinumerik::program::environment::Channel;
@@ -25,9 +25,8 @@ impl Preparing<'_> {
 
     /// The settable and the programmable offset of an axis, without G53, G153 and SUPA.
     fn lasting_offset(&self, block: &Block, axis: AxisNumber, channel: &Channel<'_>) -> f64 {
-        let settable = geometry::active_offset(block)
-            .map_or(0.0, |index| channel.program.settable_offset(index, axis).increments() as f64);
-        settable + geometry::programmable_offset(block, &self.own.axes, axis, self.parameters.axes[axis].rotary)
+        let settable = channel.program.active_offset(block.modal, axis).increments() as f64;
+        settable + geometry::programmable_offset(block, &self.own.axes, axis)
     }
 
     /// Where an axis word leads. With SD42440 an incremental one also traverses what the offsets of its axis have changed by since the axis was
@@ -80,7 +79,7 @@ impl Preparing<'_> {
                         if beyond(limit, at_end) { alarms::BEHIND_SOFTWARE_LIMIT } else { alarms::PATH_BEHIND_LIMIT };
                     return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });
                 }
-                let area = parameters.working_area[side].filter(|_| block.modal.index(28) == 1);
+                let area = parameters.working_area[side].filter(|_| block.modal.is(g::WALIMON));
                 if area.is_some_and(|limit| beyond(limit, extreme)) {
                     let number = alarms::OUTSIDE_WORKING_AREA;
                     return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });

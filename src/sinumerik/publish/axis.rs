@@ -118,7 +118,7 @@ impl State {
         });
         let jogging = &axis.jogging;
         let handwheels = jogging.handwheels | axis.overlay.handwheels;
-        let handwheel = || Why::Event(jogging.handwheel_cause.max(axis.overlay.cause).max(mode()));
+        let handwheel = || Why::Event(jogging.handwheel_cause.max(axis.overlay.selected).max(mode()));
         rows.group(axis_from_nck::handwheel_1_active, axis_from_nck::handwheel_3_active, handwheels, handwheel);
         let motion = || Why::Event(causes.motion);
         let (request, command) = (axis.travel.request(), axis.command(all));
@@ -134,7 +134,8 @@ impl State {
             jogging.shown,
             || Why::Event(jogging.function_cause.max(mode())),
         );
-        rows.bit(axis_from_nck::invert_handwheel_direction_of_rotation_active, jogging.inverted, handwheel);
+        let inverted = jogging.inverted || axis.overlay.inverted;
+        rows.bit(axis_from_nck::invert_handwheel_direction_of_rotation_active, inverted, handwheel);
         let (status, exchange) = (self.exchange_status(number), || Why::Event(self.owners.of(number).cause));
         rows.number(axis_from_nck::axis_replacement_channel, status.channel, exchange);
         rows.bit(axis_from_nck::axis_replacement_requested, status.requested, exchange);

@@ -1,6 +1,7 @@
 //! The signals of a channel: DB21 to DB30.
 
 use crate::image::{axis_from_nck, channel_from_nck};
+use crate::nc_program::g;
 use crate::sinumerik::alarms::{Alarm, Reaction};
 use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::gantry::state::Phase;
@@ -58,7 +59,7 @@ impl State {
             let ended = self.owners.of_channel(channel).iter().map(without).max();
             Why::Event(of_path.map(|one| one.cause).or(ended).unwrap_or(EventId::NONE))
         });
-        let per_revolution = program.modal.index(15) == 3;
+        let per_revolution = program.modal.is(g::G95);
         rows.bit(channel_from_nck::revolutional_feedrate_active, per_revolution, || Why::Event(program.modal_cause));
         rows.bit(channel_from_nck::m2_m30_active, program.ended, by_program);
         for (signal, state) in [

@@ -5,7 +5,7 @@
 //! | 1 | several ways of approach at once |
 //! | 40 | the axis is no PLC axis: programs have it, or it is neutral |
 //! | 50, 60 | a permanent, temporary PLC axis that is jogged or referenced |
-//! | 100 | a value that is no position, a modulo position outside of 0 to 359.999, or no velocity: neither a feedrate nor MD32060 |
+//! | 100 | a value that is no position, a modulo position outside of 0 to 359.999 (MD30455 bit 0 = 0), or no velocity: neither a feedrate nor MD32060 |
 //! | 106 | it is positioned already |
 //! | 107 | an absolute target of an axis that is not referenced |
 //! | 120 | it is no indexing axis (also alarm 20072) |
@@ -14,14 +14,14 @@
 //! | 132, 133 | behind the working area limit plus, minus (20071) |
 
 use crate::image::{AxisToNck, axis_from_nck, axis_to_nck};
-use crate::nc_program::Dimension;
+use crate::nc_program::{Dimension, INCH};
 use crate::sinumerik::alarms::axis_exchange as alarms;
 use crate::sinumerik::axis::limits::selected_limit;
 use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
-use crate::sinumerik::program::geometry::{self, INCH};
+use crate::sinumerik::program::geometry;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::{Order, OrderedBy, Outcome};
 use crate::sinumerik::state::State;
@@ -29,13 +29,13 @@ use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, Quantity, RaisedAlarm};
 
 /// Why a start is refused: the error number, what was tested, and the limit behind which the target is.
-struct Refusal {
+struct OrderRefusal {
     error: u8,
     input: Input,
     limit: Option<(AlarmNumber, i8)>,
 }
 
-impl Refusal {
+impl OrderRefusal {
     const fn new(error: u8, input: Input) -> Self {
         Self { error, input, limit: None }
     }
@@ -129,25 +129,25 @@ impl State {
         axis: AxisNumber,
         signals: &AxisToNck,
         parameters: &Parameters,
-    ) -> Result<(Position, f64), Refusal> {
+    ) -> Result<(Position, f64), OrderRefusal> {
         let (state, data) = (&self.axes[axis], &parameters.axes[axis]);
         if self.owners.of(axis).holder != Holder::Plc || self.unit_of(axis).is_none() {
-            return Err(Refusal::new(40, axis_signal(axis, axis_from_nck::plc_axis, false)));
+            return Err(OrderRefusal::new(40, axis_signal(axis, axis_from_nck::plc_axis, false)));
         }
         if self.single.axes[axis].order.is_some() {
-            return Err(Refusal::new(106, axis_signal(axis, axis_from_nck::positioning_active, true)));
+            return Err(OrderRefusal::new(106, axis_signal(axis, axis_from_nck::positioning_active, true)));
         }
         if state.approach.is_running() || state.travel.is_pending() {
             let error = if data.plc_axis.is_reserved() { 50 } else { 60 };
-            return Err(Refusal::new(error, state.travel.shown(axis, parameters)));
+            return Err(OrderRefusal::new(error, state.travel.shown(axis, parameters)));
         }
         if signals.indexing_position() {
             let input = axis_signal(axis, axis_to_nck::indexing_position, true);
-            return Err(Refusal { error: 120, input, limit: Some((alarms::NO_INDEXING_AXIS, 0)) });
+            return Err(OrderRefusal { error: 120, input, limit: Some((alarms::NO_INDEXING_AXIS, 0)) });
         }
         let target = target(axis, state.setpoint.position, signals, data, state.is_referenced())?;
         let velocity =
-            velocity(signals, data).ok_or_else(|| Refusal::new(100, Input::Datum(32060, Some(axis), 0.0)))?;
+            velocity(signals, data).ok_or_else(|| OrderRefusal::new(100, Input::Datum(32060, Some(axis), 0.0)))?;
         if state.is_referenced() {
             behind_limit(axis, target, signals, data)?;
         }
@@ -162,7 +162,7 @@ fn target(
     signals: &AxisToNck,
     data: &AxisParameters,
     is_referenced: bool,
-) -> Result<Position, Refusal> {
+) -> Result<Position, OrderRefusal> {
     let (incremental, shortest) = (signals.incremental_position(), signals.shortest_distance());
     let (minus, plus) = (signals.approach_in_minus_direction(), signals.approach_in_plus_direction());
     let ways = [
@@ -173,14 +173,14 @@ fn target(
     ];
     let chosen: Vec<_> = ways.iter().filter(|(is_set, ..)| *is_set).collect();
     if let [_, (_, _, second), ..] = chosen.as_slice() {
-        return Err(Refusal::new(1, axis_signal(axis, *second, true)));
+        return Err(OrderRefusal::new(1, axis_signal(axis, *second, true)));
     }
     if let Some((_, error, signal)) = chosen.iter().find(|(_, error, _)| *error != 1 && !data.rotary) {
-        return Err(Refusal::new(*error, axis_signal(axis, *signal, true)));
+        return Err(OrderRefusal::new(*error, axis_signal(axis, *signal, true)));
     }
     let inches = signals.position_in_inches() && !data.rotary;
     let value = f64::from(signals.positioning_target()) * if inches { INCH } else { 1.0 };
-    let bad = || Refusal::new(100, Input::None);
+    let bad = || OrderRefusal::new(100, Input::None);
     if !value.is_finite() || value.abs() > 1e9 {
         return Err(bad());
     }
@@ -189,10 +189,7 @@ fn target(
         return Ok(from + value);
     }
     if !is_referenced {
-        return Err(Refusal::new(107, axis_signal(axis, axis_from_nck::referenced_synchronized_1, false)));
-    }
-    if data.modulo && (value < Position::ZERO || value >= Position::from_user(360.0)) {
-        return Err(bad());
+        return Err(OrderRefusal::new(107, axis_signal(axis, axis_from_nck::referenced_synchronized_1, false)));
     }
     let dimension = match (shortest, plus, minus) {
         (true, ..) => Dimension::Shortest,
@@ -200,6 +197,9 @@ fn target(
         (_, _, true) => Dimension::FromMinus,
         _ => Dimension::Absolute,
     };
+    if !data.is_within_modulo(value.user(), dimension) {
+        return Err(bad());
+    }
     let dimension = if data.modulo { dimension } else { Dimension::Absolute };
     let target = geometry::target(value.increments() as f64, dimension, from.increments() as f64, 0.0, data.modulo);
     #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
@@ -211,8 +211,7 @@ fn velocity(signals: &AxisToNck, data: &AxisParameters) -> Option<f64> {
     let feed = f64::from(signals.positioning_feedrate());
     let inches = signals.position_in_inches() && !data.rotary;
     let wanted = if feed > 0.0 {
-        let turns = if data.rotary { 360.0 } else { 1.0 };
-        feed * Position::PER_USER_UNIT / 60.0 * turns * if inches { INCH } else { 1.0 }
+        data.velocity_of_feed(feed) * if inches { INCH } else { 1.0 }
     } else {
         data.positioning_velocity
     };
@@ -220,7 +219,12 @@ fn velocity(signals: &AxisToNck, data: &AxisParameters) -> Option<f64> {
 }
 
 /// 20070, 20071: only of a referenced axis.
-fn behind_limit(axis: AxisNumber, target: Position, signals: &AxisToNck, data: &AxisParameters) -> Result<(), Refusal> {
+fn behind_limit(
+    axis: AxisNumber,
+    target: Position,
+    signals: &AxisToNck,
+    data: &AxisParameters,
+) -> Result<(), OrderRefusal> {
     for (direction, place) in [(1_i8, 0_u8), (-1, 1)] {
         let beyond = |limit: Position| (target - limit).increments() * i64::from(direction) > 0;
         let software = selected_limit(signals, data, direction).filter(|limit| beyond(*limit));
@@ -238,7 +242,7 @@ fn behind_limit(axis: AxisNumber, target: Position, signals: &AxisToNck, data: &
             (None, Some(_)) => (alarms::BEHIND_WORKING_AREA, 132 + place, Input::None),
             (None, None) => continue,
         };
-        return Err(Refusal { error, input, limit: Some((alarm, direction)) });
+        return Err(OrderRefusal { error, input, limit: Some((alarm, direction)) });
     }
     Ok(())
 }

@@ -10,7 +10,7 @@
 //! |---|---|
 //! | 1 | several functions, or several ways of approach at once |
 //! | 40 | the spindle is no PLC axis |
-//! | 100 | a position outside of 0 to 359.999; constant cutting speed, which is not modelled; no spindle (22297) |
+//! | 100 | a position outside of 0 to 359.999 (MD30455 bit 0 = 0); constant cutting speed, which is not modelled; no spindle (22297) |
 //! | 101, 111 | the speed is above MD35100; it is not positive |
 //! | 105 | no measuring system (22050) |
 //! | 107 | the zero mark was not found (22051) |
@@ -22,6 +22,7 @@ use crate::sinumerik::alarms::{SPINDLE_MARK_MISSING, axis_exchange as alarms};
 use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::spindle::{REVOLUTION_PER_MINUTE, SpindleParameters};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::{Outcome, SpindleOrder};
@@ -34,7 +35,7 @@ use crate::variables::{EventId, Input, Parameter, Place};
 const NO_SPINDLE: i64 = 6;
 
 /// The error number of a refusal, and what was tested.
-type Refusal = (u8, Input);
+type SpindleRefusal = (u8, Input);
 
 impl State {
     /// The start and stop bits of the spindle functions.
@@ -96,7 +97,7 @@ impl State {
         order: SpindleOrder,
         signals: &AxisToNck,
         (parameters, pressed): (&Parameters, Input),
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), SpindleRefusal> {
         let Some(own) = parameters.axes[axis].spindle.as_deref() else {
             return Err((100, Input::None));
         };
@@ -111,7 +112,7 @@ impl State {
         let place = Place::Axis(axis);
         match order {
             SpindleOrder::Position => {
-                let (angle, dimension) = wanted_angle(axis, signals)?;
+                let (angle, dimension) = wanted_angle(axis, signals, &parameters.axes[axis])?;
                 let event = self.log.note_one(place, Rule::SpindleOrder, pressed, EventId::NONE);
                 self.position_spindle(axis, (angle, dimension), Rule::SpindleOrder, parameters, event);
                 let speed = if speed > 0.0 { Some(speed * REVOLUTION_PER_MINUTE) } else { None };
@@ -242,7 +243,11 @@ impl State {
 }
 
 /// The angle that the PLC wants, or the distance, and how it is meant.
-fn wanted_angle(axis: AxisNumber, signals: &AxisToNck) -> Result<(f64, Dimension), Refusal> {
+fn wanted_angle(
+    axis: AxisNumber,
+    signals: &AxisToNck,
+    data: &AxisParameters,
+) -> Result<(f64, Dimension), SpindleRefusal> {
     let ways = [
         (signals.incremental_position(), Dimension::Incremental, axis_to_nck::incremental_position),
         (signals.shortest_distance(), Dimension::Shortest, axis_to_nck::shortest_distance),
@@ -255,6 +260,9 @@ fn wanted_angle(axis: AxisNumber, signals: &AxisToNck) -> Result<(f64, Dimension
         return Err((1, axis_signal(axis, *second, true)));
     }
     let angle = f64::from(signals.positioning_target());
-    let is_within = dimension == Dimension::Incremental && angle.abs() <= 1e9 || (0.0..360.0).contains(&angle);
-    if is_within { Ok((angle, dimension)) } else { Err((100, Input::None)) }
+    if angle.abs() <= 1e9 && data.is_within_modulo(angle, dimension) {
+        Ok((angle, dimension))
+    } else {
+        Err((100, Input::None))
+    }
 }

@@ -4,7 +4,7 @@
 //! acknowledged it. The extension is the number of the spindle.
 
 use crate::control::{Owner, Value};
-use crate::nc_program::AuxiliaryKind;
+use crate::nc_program::{AuxiliaryKind, is_of_spindle};
 use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
@@ -14,9 +14,6 @@ use crate::sinumerik::spindle::state::{Mode, Spindle};
 use crate::sinumerik::state::State;
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Place};
-
-/// The M functions that concern a spindle.
-pub(in crate::sinumerik) const SPINDLE_FUNCTIONS: [i32; 11] = [3, 4, 5, 19, 70, 40, 41, 42, 43, 44, 45];
 
 impl State {
     /// DBW86 and DBD88 show the functions of a package from its output on.
@@ -104,7 +101,7 @@ impl Spindle {
 fn axis_of(entry: &Entry, own: &ProgramParameters) -> Option<AxisNumber> {
     let concerns = match entry.kind {
         AuxiliaryKind::S => true,
-        AuxiliaryKind::M => SPINDLE_FUNCTIONS.contains(&number(entry).into()),
+        AuxiliaryKind::M => is_of_spindle(entry.value),
         AuxiliaryKind::T | AuxiliaryKind::D | AuxiliaryKind::SumOffset | AuxiliaryKind::H | AuxiliaryKind::F => false,
     };
     if concerns { own.spindle(entry.extension) } else { None }

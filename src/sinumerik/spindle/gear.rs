@@ -133,13 +133,7 @@ impl State {
         let may = signals.oscillation_enable() && self.axes[number].enabling.is_on() && !signals.feed_stop();
         let stands = self.axes[number].stands(&parameters.axes[number]);
         let before = change.oscillation;
-        let oscillation = match before {
-            _ if !may => None,
-            None if !stands => None,
-            None => Some(own.first_oscillation()),
-            Some((direction, 0)) => Some((-direction, own.oscillation_cycles(-direction))),
-            Some((direction, left)) => Some((direction, left - 1)),
-        };
+        let oscillation = if may { own.next_oscillation(before, stands) } else { None };
         let direction = match oscillation {
             None => 0,
             Some(_) if signals.oscillation_by_plc() => plc_direction(signals),

@@ -24,13 +24,7 @@ impl State {
         let holder = self.spindle_holder(unit, &spindle, own, to_nck);
         let stands = self.axes[number].stands(&parameters.axes[number]);
         let before = spindle.plc_oscillation;
-        let oscillation = match before {
-            _ if holder.is_some() => None,
-            None if !stands => None,
-            None => Some(own.first_oscillation()),
-            Some((direction, 0)) => Some((-direction, own.oscillation_cycles(-direction))),
-            Some((direction, left)) => Some((direction, left - 1)),
-        };
+        let oscillation = if holder.is_none() { own.next_oscillation(before, stands) } else { None };
         let direction = oscillation.map_or(0, |(direction, _)| direction);
         let velocity = own.oscillation_speed * f64::from(direction);
         let acceleration = if oscillation.is_some() {

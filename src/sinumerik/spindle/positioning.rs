@@ -19,7 +19,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::parameters::spindle::SpindleParameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::spindle::state::{Mode, Phase, Positioning};
+use crate::sinumerik::spindle::state::{Mode, Phase, SpindlePositioning};
 use crate::sinumerik::spindle::target::{Course, target};
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, Position};
@@ -48,7 +48,7 @@ impl State {
         }
         if let Some(spindle) = self.spindles[number].as_deref_mut() {
             let phase = Phase::Searching { from: None };
-            let positioning = Positioning { angle: Position::from_user(angle), dimension, speed: None, phase };
+            let positioning = SpindlePositioning { angle: Position::from_user(angle), dimension, speed: None, phase };
             (spindle.mode, spindle.mode_cause) = (Mode::Positioning(positioning), event);
             (spindle.direction, spindle.stopped, spindle.cause) = (0, false, event);
             spindle.position_cause = event;
@@ -59,7 +59,7 @@ impl State {
     pub(super) fn run_positioning(
         &mut self,
         unit: &Unit,
-        mut order: Positioning,
+        mut order: SpindlePositioning,
         own: &SpindleParameters,
         (parameters, to_nck): (&Parameters, &ToNck),
     ) {
@@ -121,7 +121,7 @@ impl State {
     }
 
     /// The direction in which the zero mark is searched.
-    fn search_direction(&self, number: AxisNumber, order: &Positioning, own: &SpindleParameters) -> i8 {
+    fn search_direction(&self, number: AxisNumber, order: &SpindlePositioning, own: &SpindleParameters) -> i8 {
         let velocity = self.axes[number].setpoint.velocity();
         let stands = self.axes[number].setpoint.is_at_rest();
         match order.dimension {
@@ -148,7 +148,7 @@ impl State {
     fn begin_position_control(
         &mut self,
         number: AxisNumber,
-        order: &Positioning,
+        order: &SpindlePositioning,
         own: &SpindleParameters,
         parameters: &Parameters,
     ) -> Position {
@@ -173,7 +173,7 @@ impl State {
         &mut self,
         number: AxisNumber,
         target: Position,
-        order: &mut Positioning,
+        order: &mut SpindlePositioning,
         parameters: &Parameters,
     ) {
         let axis = &self.axes[number];
@@ -195,7 +195,7 @@ impl State {
         let order = self.spindles[number].as_deref().map(|spindle| spindle.mode);
         matches!(
             order,
-            Some(Mode::Positioning(Positioning { phase: Phase::Searching { .. } | Phase::Going { .. }, .. }))
+            Some(Mode::Positioning(SpindlePositioning { phase: Phase::Searching { .. } | Phase::Going { .. }, .. }))
         )
     }
 

@@ -13,14 +13,14 @@ pub(in crate::sinumerik) enum Mode {
     #[default]
     Control,
     /// 84.5: SPOS, SPOSA, M19.
-    Positioning(Positioning),
+    Positioning(SpindlePositioning),
     /// M70: it is an axis, once it stands.
     Axis,
 }
 
 /// A positioning of a spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Positioning {
+pub(in crate::sinumerik) struct SpindlePositioning {
     /// The angle, or the distance with IC.
     pub angle: Position,
     pub dimension: Dimension,
@@ -156,14 +156,15 @@ impl Spindle {
 
     /// 85.5.
     pub(in crate::sinumerik) const fn is_in_position(&self) -> bool {
-        matches!(self.mode, Mode::Positioning(Positioning { phase: Phase::InPosition { .. }, .. }))
+        matches!(self.mode, Mode::Positioning(SpindlePositioning { phase: Phase::InPosition { .. }, .. }))
     }
 
     /// The target of positioning, once it is known.
     pub(in crate::sinumerik) const fn target(&self) -> Option<Position> {
         match self.mode {
-            Mode::Positioning(Positioning {
-                phase: Phase::Going { target } | Phase::InPosition { target }, ..
+            Mode::Positioning(SpindlePositioning {
+                phase: Phase::Going { target } | Phase::InPosition { target },
+                ..
             }) => Some(target),
             Mode::Positioning(_) | Mode::Control | Mode::Axis => None,
         }

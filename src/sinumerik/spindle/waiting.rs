@@ -2,7 +2,7 @@
 //! and for 83.5 of each spindle of the channel to which a program has given a direction and a speed. Also G95, G4 S, and what the preparation knows of spindles.
 
 use crate::image::axis_from_nck;
-use crate::nc_program::{AuxiliaryFunction, AuxiliaryKind};
+use crate::nc_program::{AuxiliaryFunction, AuxiliaryKind, g};
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::parameters::spindle::REVOLUTION_PER_MINUTE;
@@ -102,6 +102,6 @@ impl Run {
 impl Executable {
     /// G95: its feed is for one revolution of the master spindle in a second.
     pub(in crate::sinumerik) fn is_per_revolution(&self) -> bool {
-        self.modal.index(15) == 3
+        self.modal.is(g::G95)
     }
 }

@@ -1,6 +1,8 @@
 //! Blocks that cannot be executed, and starts that are refused.
 
 use super::{automatic, position, start};
+use opennck::plc::enable_all;
+use opennck::scenario::Session;
 
 /// Everything before the bad block is executed, nothing of the block, and NC start reads it again.
 #[test]
@@ -46,6 +48,12 @@ fn each_error_has_its_alarm() {
         ("R100=1\nM30", 17020),
         ("SPOS=90\nM30", 16100),
         ("G41 X1 F100\nM30", 12553),
+        ("G0 A=DC(400)\nM30", 16830),
+        ("G0 A400\nM30", 16830),
+        ("POS[A]=AC(-1)\nM30", 16830),
+        ("G0 X1EX30\nM30", 14088),
+        ("POS[X]=-1EX30\nM30", 14088),
+        ("G0 X1EX30=5\nM30", 12550),
     ] {
         let mut session = automatic(nc);
         start(&mut session);
@@ -69,7 +77,7 @@ fn a_target_behind_a_software_limit_is_refused_when_the_axis_is_referenced() {
 fn nc_start_without_a_program_is_refused() {
     let mut session = automatic("M30");
     session.run("10ms").unwrap();
-    let mut other = opennck::scenario::Session::open("machine_data/portal").unwrap();
+    let mut other = Session::open("machine_data/portal").unwrap();
     other.set("mode_group_1.mode_automatic", 1).unwrap();
     other.run("100ms").unwrap();
     start(&mut other);
@@ -167,7 +175,7 @@ fn an_axis_that_posa_still_moves_is_not_positioned_again() {
     let mut session = automatic("POSA[Z]=100 FA[Z]=600\nN20 POSA[Z]=50\nM30");
     start(&mut session);
     session.run("1s").unwrap();
-    session.expect("alarm(10610) && CHAN1.program_state_stopped").unwrap();
+    session.expect("alarm(10610) && CHAN1.program_state_stopped && CHAN1.block == 20").unwrap();
     assert!(session.text().contains("axis Z block N20"), "{}", session.text());
     session.pulse("CHAN1.channel_reset").unwrap();
     session.run("1s").unwrap();
@@ -190,5 +198,81 @@ fn the_program_in_which_an_alarm_is_is_shown() {
         session.expect("CHAN1.block == 110 && CHAN1.program_state_stopped").unwrap();
         let text = session.sequence();
         assert!(text.contains("MAIN.MPF -> CIRCLE.SPF"), "{text}");
+    }
+}
+
+/// 16830 also for a spindle; an incremental angle has no range, and MD30455 bit 0 makes absolute ones count modulo 360.
+#[test]
+fn a_spindle_is_positioned_within_a_revolution() {
+    let mill = |nc: &str, mask: i64| {
+        let mut session = Session::open("machine_data/mill").unwrap().with_program(enable_all().boxed());
+        session.machine_data("30455[SP1]", mask).unwrap();
+        session.new_conf().unwrap();
+        session.pulse_for("CHAN1.channel_reset", "5cycles").unwrap();
+        session.wait("SP1.speed_controller_active", "1s").unwrap();
+        session.set("mode_group_1.mode_automatic", 1).unwrap();
+        session.nc(nc, 1).unwrap();
+        session.run("1cycles").unwrap();
+        start(&mut session);
+        session.wait("CHAN1.m2_m30_active || alarms() > 0", "60s").unwrap();
+        session
+    };
+    for nc in ["SPOS=400\nM30", "SPOSA=DC(360)\nM30", "SPOS=-90\nM30"] {
+        mill(nc, 0).expect("alarm(16830) && CHAN1.program_state_stopped").unwrap();
+    }
+    mill("SPOS=0\nSPOS=IC(400)\nM30", 0).expect("alarms() == 0").unwrap();
+    // 400 degrees are 40: beside 39, one degree in plus direction.
+    let mut session = mill("SPOS=39\nR1=$AA_IM[SP1]\nSPOS=400\nR2=$AA_IM[SP1]\nM30", 1);
+    session.expect("alarms() == 0 && abs(R2 - R1 - 1) < 0.05").unwrap();
+}
+
+/// DA828 14769: with MD20850 SPOS is also M19, so five M functions beside it are one too many.
+#[test]
+fn an_implicit_m19_counts_among_the_m_functions_of_its_block() {
+    for (m, fits) in [("M10 M11 M12 M13", true), ("M10 M11 M12 M13 M14", false)] {
+        let mut session = Session::open("machine_data/mill").unwrap().with_program(enable_all().boxed());
+        session.machine_data("20850[CHAN1]", 1).unwrap();
+        session.power_on().unwrap();
+        session.wait("SP1.speed_controller_active", "1s").unwrap();
+        session.set("mode_group_1.mode_automatic", 1).unwrap();
+        session.nc(&format!("N10 {m} SPOS=90\nM30"), 1).unwrap();
+        session.run("1cycles").unwrap();
+        start(&mut session);
+        session.wait("CHAN1.m2_m30_active || alarms() > 0", "20s").unwrap();
+        session.expect(if fits { "alarms() == 0" } else { "alarm(14769) && CHAN1.block == 10" }).unwrap();
+    }
+}
+
+/// DA828 20141: the path moves the axis, so a synchronised action cannot. 12560: a value that is known in the main run only, and that M cannot have.
+#[test]
+fn actions_that_are_not_possible_raise_their_alarms_in_the_main_run() {
+    for (action, alarm) in [("POS[X]=3", 20141), ("POS[A]=400", 20140), ("M=$AA_IM[X]/7", 12560)] {
+        let mut session = automatic(&format!("WHEN $AA_IM[X]>5 DO {action}\nN20 G1 X20 F1000\nM30"));
+        start(&mut session);
+        session.wait("alarms() > 0 || CHAN1.m2_m30_active", "5s").unwrap();
+        session.expect(&format!("alarm({alarm}) && X.setpoint > 4.9 && X.setpoint < 6")).unwrap();
+    }
+}
+
+/// O-37: NC start reads the block of a correctable alarm again, whoever found the error, with the R parameters that it finds then. What was
+/// calculated before it is not calculated again, and what was read behind it counts once.
+#[test]
+fn a_block_is_read_again_with_the_r_parameters_of_then() {
+    // 14088 is found by the channel, 14051 by the interpreter.
+    for (bad, wrong, right) in [("X=R1", 1e12, 5.0), ("X=10/R1", 0.0, 2.0)] {
+        let nc = format!("R2=R2+1\nN10 G0 X1\nR2=R2+10\nN20 {bad}\nR2=R2+100\nN30 M30");
+        let mut session = automatic(&nc);
+        session.r_parameter("R1", wrong).unwrap();
+        start(&mut session);
+        session.wait("alarms() > 0", "5s").unwrap();
+        session.expect("CHAN1.program_state_stopped && CHAN1.block == 20 && X.setpoint == 1 && R2 == 11").unwrap();
+        // Not corrected: the alarm comes again.
+        start(&mut session);
+        session.run("50ms").unwrap();
+        session.expect("alarms() == 1 && CHAN1.program_state_stopped").unwrap();
+        session.r_parameter("R1", right).unwrap();
+        start(&mut session);
+        session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+        session.expect("X.setpoint == 5 && R2 == 111 && alarms() == 0").unwrap();
     }
 }

@@ -201,3 +201,49 @@ fn preset_of_the_operator_acts_on_the_leading_axis_at_standstill() {
     session.run("10ms").unwrap();
     session.expect("X.setpoint == 7 && abs(X2.position - 7) < 0.02").unwrap();
 }
+
+/// FGROUP: F counts for its axes only. 100 mm of X at 6000 mm/min are 1 s; X and Y together go 141.4 mm, 1.414 s.
+#[test]
+fn the_path_feed_refers_to_the_axes_of_fgroup() {
+    let line = "G1 X100 Y100 F6000\nM30";
+    let (both, only_x) = (duration(line), duration(&format!("FGROUP(X)\n{line}")));
+    assert!((both - only_x - 0.414).abs() < 0.03, "{both} {only_x}");
+    let back = duration(&format!("FGROUP(X)\nFGROUP()\n{line}"));
+    assert!((both - back).abs() < 0.01, "{both} {back}");
+    assert_eq!(position(&run("FGROUP(Y)\nG1 X10 F6000\nM30"))[0], 10.0);
+}
+
+/// G70 and G71 act where an offset is programmed: one inch stays 25.4 mm.
+#[test]
+fn an_offset_in_inches_stays_where_it_is() {
+    assert_eq!(position(&run("G70 TRANS X1\nG71 G0 X10\nM30"))[0], 35.4);
+}
+
+/// $AA_TYP: 1 an axis of the program, 7 a synchronous axis of a closed grouping, 2 a neutral axis.
+#[test]
+fn the_type_of_a_synchronous_axis_is_coupled() {
+    let mut session = run("R1=$AA_TYP[X] R2=$AA_TYP[X2]\nRELEASE(Z)\nR3=$AA_TYP[Z]\nM30");
+    session.expect("R1 == 1 && R2 == 7 && R3 == 2").unwrap();
+}
+
+/// MD36600. The cycle of 2 ms in which the switch is read is still a movement of 0.2 mm at 100 mm/s. On the ramp of 2 m/s², 4 mm/s in each cycle,
+/// (96 + 92 + … + 4) mm/s in 24 cycles are 2.4 mm more.
+#[test]
+fn a_positioning_axis_stops_at_its_hardware_limit_switch() {
+    for (mode, least, most) in [(0, 2.59, 2.61), (1, -0.001, 0.201)] {
+        let mut session = automatic("POS[Z]=100 FA[Z]=6000\nM30");
+        session.machine_data("36600[Z]", mode).unwrap();
+        session.new_conf().unwrap();
+        start(&mut session);
+        session.wait("Z.setpoint > 50", "5s").unwrap();
+        let before = session.value("Z.setpoint").unwrap();
+        session.force("Z.hardware_limit_switch_plus", 1).unwrap();
+        session.run("200ms").unwrap();
+        let way = session.value("Z.setpoint").unwrap() - before;
+        assert!(way > least && way < most, "{mode}: {way}");
+        session.release("Z.hardware_limit_switch_plus").unwrap();
+        session.run("200ms").unwrap();
+        session.expect("alarm(21614, Z) && CHAN1.program_state_running && Z.velocity == 0").unwrap();
+        assert!((session.value("Z.setpoint").unwrap() - before - way).abs() < 1e-9);
+    }
+}

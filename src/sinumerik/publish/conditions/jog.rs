@@ -151,7 +151,8 @@ impl Look<'_> {
     }
 
     fn inverted(self, axis: AxisNumber, wanted: bool) -> Condition {
-        let inverted = self.state.axes[axis].jogging.inverted;
+        let state = &self.state.axes[axis];
+        let inverted = state.jogging.inverted || state.overlay.inverted;
         let word = |inverted| if inverted { "inverted" } else { "not inverted" };
         let what = format!("direction of the handwheel of {}", self.axis_name(axis));
         Fact::new(what, word(inverted), word(wanted), inverted == wanted).after(|| {
@@ -161,7 +162,6 @@ impl Look<'_> {
                 axis_from_nck::handwheel_3_active,
             ];
             let all = Condition::All(vec![
-                self.only_jog(self.unit(axis).mode_group),
                 Condition::Any(active.map(|active| self.axis(axis, active, true)).into()),
                 self.axis(axis, axis_to_nck::invert_handwheel_direction_of_rotation, true),
             ]);

@@ -5,7 +5,7 @@ use crate::image::{
     ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck,
     mode_group_from_nck, mode_group_to_nck,
 };
-use crate::sinumerik::alarms::Reaction;
+use crate::nc_program::g;
 use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::program::state::{Phase, ProgramState, WaitFor};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
@@ -49,7 +49,7 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         |look, channel| look.program_test(channel, false),
     ),
     Row::new(channel_from_nck::revolutional_feedrate_active, |look, channel| {
-        let active = look.state.programs[channel].modal.index(15) == 3;
+        let active = look.state.programs[channel].modal.is(g::G95);
         fact(format!("G95 is active in {}: feed per revolution", look.channel_name(channel)), active).into()
     }),
     Row::new(channel_from_nck::handwheel_override_active, |look, channel| {
@@ -140,8 +140,7 @@ impl Look<'_> {
             self.mode_group(group, mode_group_to_nck::mode_group_stop_axes_plus_spindles, false),
             asks(channel_from_nck::all_axes_requiring_reference_point_are_referenced, true),
             self.no_alarm(format!("alarm that disables NC start of {}", self.channel_name(channel)), |place, alarm| {
-                alarm.reaction.has(Reaction::START_DISABLED)
-                    && self.state.owners.concerns_channel(self.parameters, place, channel)
+                self.state.locks_start((place, alarm), channel, self.parameters)
             }),
             self.not_stopped(channel),
             Fact::new("selected program", selected.0, "one", selected.1).into(),

@@ -8,7 +8,7 @@ use crate::sinumerik::parameters::spindle::{REVOLUTION_PER_MINUTE, SpindleParame
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
 use crate::sinumerik::publish::conditions::motion::sign;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::spindle::state::{Mode, Phase, Positioning, Spindle};
+use crate::sinumerik::spindle::state::{Mode, Phase, Spindle, SpindlePositioning};
 use crate::sinumerik::state::Unit;
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{Place, six_decimals};
@@ -200,7 +200,7 @@ impl<'a> Look<'a> {
         let what = format!("{} has reached the target of its positioning", self.axis_name(axis));
         fact(what, spindle.is_in_position()).after(|| {
             let target = match spindle.mode {
-                Mode::Positioning(Positioning { phase: Phase::Going { target }, .. }) => Some(target),
+                Mode::Positioning(SpindlePositioning { phase: Phase::Going { target }, .. }) => Some(target),
                 Mode::Positioning(_) | Mode::Control | Mode::Axis => None,
             };
             let Some(target) = target else {
