@@ -133,6 +133,19 @@ impl Resting {
         self.heard = self.heard.with(axes);
     }
 
+    /// A stage behind the waking moves these axes: their units are computed in this cycle, with all decisions.
+    pub(super) fn decide_now(&mut self, axes: AxisSet, units: &[Unit]) {
+        if axes.without(self.deciding).is_empty() {
+            return;
+        }
+        for (index, unit) in units.iter().enumerate().filter(|(_, unit)| !unit.set.and(axes).is_empty()) {
+            self.awake = self.awake.with(unit.set);
+            self.deciding = self.deciding.with(unit.set);
+            self.awake_units |= 1 << index;
+            self.deciding_units |= 1 << index;
+        }
+    }
+
     /// The axes that need decisions in this cycle.
     pub(super) const fn deciding(&self) -> AxisSet {
         self.deciding

@@ -13,18 +13,8 @@ fn findings(session: &Session) -> Vec<CauseFinding> {
     session.trace().check_causes(session.machine(), &Watch::default())
 }
 
-/// Scenarios with causes that are not correct yet: start by another channel, orders of the PLC and handwheel overrides that end, requests of
-/// values on the 828D, the control of the ISG kernel.
-const NOT_YET: [&str; 8] = [
-    "golden/channels/wait_directly_behind_start",
-    "golden/exchange/positioning_by_handwheel",
-    "golden/exchange/positioning_refused",
-    "golden/exchange/waitp_and_command_axes",
-    "golden/isg_",
-    "golden/overlay/handwheel_override",
-    "golden/profile_828d/axis_values",
-    "golden/spindle/by_plc",
-];
+/// Scenarios with causes that are not correct yet: the control of the ISG kernel.
+const NOT_YET: [&str; 1] = ["golden/isg_"];
 
 #[test]
 fn every_cause_in_the_golden_scenarios_is_correct() {

@@ -90,11 +90,22 @@ impl State {
         let ended = self.axes.iter().filter(|(axis, one)| has_ended(*axis, one.by_handwheel));
         let ended: AxisSet = ended.map(|(axis, _)| axis).collect();
         for axis in ended.iter() {
-            let event = self.log.note_plain(Place::Axis(axis), Rule::HandwheelOverrideEnds, EventId::NONE);
+            let event = self.log.note_plain(Place::Axis(axis), Rule::HandwheelOverrideEnds, self.end_of_override(axis));
             self.axes[axis].by_handwheel = None;
             self.single.axes[axis].handwheel_cause = event;
             self.log.news.set(axis, true);
         }
+    }
+
+    /// The event that ended the override of an axis: that of its order in this cycle, else the latest one of its movement and its program.
+    fn end_of_override(&self, axis: AxisNumber) -> EventId {
+        let of_order = self.single.axes[axis].cause;
+        let is_axial = self.axes[axis].by_handwheel.is_some_and(|one| one.is_axial);
+        if is_axial && self.log.is_of_this_cycle(of_order) {
+            return of_order;
+        }
+        let program = &self.programs[self.owners.of(axis).channel];
+        self.axes[axis].causes.motion.max(program.block_cause()).max(program.cause)
     }
 
     /// How far the pulses of this cycle move the axis, in increments, and the bit of its handwheel; 0 without one.

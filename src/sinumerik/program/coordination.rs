@@ -5,10 +5,10 @@
 //! have to wait keeps its mark until the next judgement. Marks of SETM stay until CLEARM or power off (P-67).
 
 use crate::image::ToNck;
-use crate::image::channel_from_nck;
+use crate::image::{channel_from_nck, mode_group_from_nck};
 use crate::nc_program::{Action, Library, Request, normalised};
 use crate::sinumerik::alarms::{START_WITHOUT_REFERENCE, programs as alarms};
-use crate::sinumerik::inputs::channel_signal;
+use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::program::path::Stage;
@@ -176,7 +176,8 @@ impl State {
             // MD10708 bit 1: no alarm, and nothing is started.
             return;
         }
-        let mode = self.mode_groups[parameters.mode_group(channel)].mode;
+        let group = parameters.mode_group(channel);
+        let mode = self.mode_groups[group].mode;
         let block_alarm = if searches {
             Some(alarms::START_IN_SERUPRO)
         } else if mode == Mode::Mda {
@@ -209,8 +210,8 @@ impl State {
         } else {
             match selected.filter(|path| library.program(path).is_some()) {
                 Some(path) => {
-                    let running = channel_signal(by, channel_from_nck::program_state_running, true);
-                    let started = self.log.note_one(Place::Channel(channel), Rule::StartedByProgram, running, event);
+                    let active = mode_group_signal(group, mode_group_from_nck::active_mode_automatic, true);
+                    let started = self.log.note_one(Place::Channel(channel), Rule::StartedByProgram, active, event);
                     self.begin_program((channel, mode), &path, own, (parameters, to_nck), started);
                 }
                 None => refuse(self, alarms::NO_PROGRAM, ""),

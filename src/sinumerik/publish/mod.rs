@@ -116,7 +116,10 @@ impl Nck {
                 state.show_movement(axis, &parameters.axes[axis], parameters, &mut asked);
                 state.show_spindle(axis, parameters, &mut asked);
                 state.show_gantry_axis(axis, &mut asked);
-                state.show_axis_828d(axis, &AxisValues::default(), parameters, &mut asked);
+                if parameters.user.is_some() {
+                    let values = state.values(axis, &parameters.axes[axis], parameters);
+                    state.show_axis_828d(axis, &values, parameters, &mut asked);
+                }
             }
         }
         let cause = match asked.found() {

@@ -11,7 +11,7 @@ use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AxisValues, EventId, Input};
+use crate::variables::{AxisValues, EventId, Input, Quantity};
 
 /// The number of bytes of the auxiliary functions.
 const AUXILIARY: usize = size_of::<ChannelAuxiliary828d>();
@@ -59,13 +59,22 @@ impl State {
             rows.bytes(axis_828d::spindle_m_function.byte, &m, functions);
             rows.bytes(axis_828d::spindle_s_function.byte, &spindle.s_function.to_be_bytes(), functions);
         }
-        let shown =
-            [(axis_828d::axis_actual_value, values.position), (axis_828d::axis_distance_to_go, values.distance_to_go)];
-        for ((signal, value), requested) in shown.into_iter().zip(self.user.requests) {
+        let of_axis = |quantity, length| Input::Length(quantity, number, length);
+        let position = [of_axis(Quantity::Position, values.position), Input::None, Input::None];
+        let left = [
+            of_axis(Quantity::Target, values.setpoint + values.distance_to_go),
+            of_axis(Quantity::Setpoint, values.setpoint),
+            Input::None,
+        ];
+        let shown = [
+            (axis_828d::axis_actual_value, values.position, position),
+            (axis_828d::axis_distance_to_go, values.distance_to_go, left),
+        ];
+        for ((signal, value, inputs), requested) in shown.into_iter().zip(self.user.requests) {
             if requested {
                 let value = real(value, parameters.is_inch && !parameters.axes[number].rotary);
                 rows.bytes(signal.byte, &value.to_be_bytes(), || {
-                    Why::Tested(Rule::ValueRequested, [Input::None; 3], self.axes[number].causes.movement())
+                    Why::Tested(Rule::ValueRequested, inputs, self.axes[number].causes.movement())
                 });
             }
         }

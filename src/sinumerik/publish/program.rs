@@ -35,10 +35,14 @@ impl ChannelProgram {
 impl State {
     /// What an axis has left of the block that runs: the axes of the path, and those of POS and POSA; a synchronous axis as its leading axis.
     pub(super) fn distance_to_go_of_program(&self, number: AxisNumber, parameters: &Parameters) -> Option<Position> {
-        let channel = parameters.axes[number].channel;
+        let leader = self.units.iter().find(|unit| unit.set.contains(number))?.leader();
+        let channel = self.owners.of(leader).channel;
+        if !self.owners.is_program_axis(leader, channel) {
+            // A PLC axis or a command axis goes beside the path.
+            return None;
+        }
         let run = self.programs[channel].run.as_deref()?;
         let own = parameters.programs[channel].as_deref()?;
-        let leader = self.units.iter().find(|unit| unit.set.contains(number))?.leader();
         let setpoint = self.axes[leader].setpoint.position;
         if let Some(positioning) = run.positionings.iter().find(|one| one.axis == leader) {
             return Some(positioning.target - setpoint);

@@ -22,6 +22,8 @@ impl Nck {
     /// Positions the axes with an order; the signals of the axes `changed` have changed.
     pub(in crate::sinumerik) fn position_single_axes(&mut self, changed: AxisSet, to_nck: &ToNck) {
         self.state.position_axes(changed, &self.parameters, to_nck);
+        // A synchronised action of this cycle may have woken an axis that rested.
+        self.resting.decide_now(self.state.single.moving, &self.state.units);
         self.resting.hear_all(self.state.note_positioning(&self.parameters));
     }
 }

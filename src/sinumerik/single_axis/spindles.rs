@@ -40,25 +40,19 @@ type SpindleRefusal = (u8, Input);
 impl State {
     /// The start and stop bits of the spindle functions.
     pub(super) fn watch_spindle_order(&mut self, axis: AxisNumber, signals: &AxisToNck, parameters: &Parameters) {
-        let starts = [
-            (signals.start_spindle_positioning(), SpindleOrder::Position, axis_to_nck::start_spindle_positioning),
-            (signals.start_spindle_rotation(), SpindleOrder::Rotate, axis_to_nck::start_spindle_rotation),
-            (signals.start_spindle_oscillation(), SpindleOrder::Oscillate, axis_to_nck::start_spindle_oscillation),
-        ];
-        let started = starts.iter().find(|(is_set, ..)| *is_set);
-        let was = std::mem::replace(&mut self.single.axes[axis].spindle_was, started.is_some());
+        let started = SpindleOrder::started(signals).next();
+        let was = std::mem::replace(&mut self.single.axes[axis].spindle_was, started);
         let stop = signals.stop_spindle_rotation() || signals.stop_spindle_oscillation();
         let stop_was = std::mem::replace(&mut self.single.axes[axis].spindle_stop_was, stop);
-        if let (Some((_, order, signal)), false) = (started, was) {
-            let pressed = axis_signal(axis, *signal, true);
+        if let (Some(order), None) = (started, was) {
+            let pressed = axis_signal(axis, order.start(), true);
             if parameters.axes[axis].spindle.is_none() || self.spindles[axis].is_none() {
                 self.refuse_spindle(axis, pressed);
                 return;
             }
-            let several = starts.iter().filter(|(is_set, ..)| *is_set).nth(1);
-            let begun = match several {
-                Some((.., second)) => Err((1, axis_signal(axis, *second, true))),
-                None => self.begin_spindle_order(axis, *order, signals, (parameters, pressed)),
+            let begun = match SpindleOrder::started(signals).nth(1) {
+                Some(second) => Err((1, axis_signal(axis, second.start(), true))),
+                None => self.begin_spindle_order(axis, order, signals, (parameters, pressed)),
             };
             if let Err((error, input)) = begun {
                 let event = self.log.note(
@@ -70,8 +64,8 @@ impl State {
                 let one = &mut self.single.axes[axis];
                 (one.outcome, one.cause) = (Outcome::Refused(error), event);
             }
-        } else if was && started.is_none() {
-            self.withdraw_spindle_order(axis);
+        } else if let (None, Some(order)) = (started, was) {
+            self.withdraw_spindle_order(axis, axis_signal(axis, order.start(), false));
         }
         if stop && !stop_was && self.single.axes[axis].spindle.is_some_and(|order| order != SpindleOrder::Position) {
             let input = if signals.stop_spindle_rotation() {
@@ -177,8 +171,8 @@ impl State {
     }
 
     /// Start is 0: a positioning stops; rotation and oscillation go on until their stop. What has ended is no longer shown.
-    fn withdraw_spindle_order(&mut self, axis: AxisNumber) {
-        let event = self.log.note_plain(Place::Axis(axis), Rule::OrderWithdrawn, EventId::NONE);
+    fn withdraw_spindle_order(&mut self, axis: AxisNumber, starts: Input) {
+        let event = self.log.note_one(Place::Axis(axis), Rule::OrderWithdrawn, starts, EventId::NONE);
         match self.single.axes[axis].spindle {
             Some(SpindleOrder::Position) => {
                 self.brake_spindle(axis, event);

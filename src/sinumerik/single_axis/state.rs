@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::image::{AxisToNck, Signal, axis_to_nck};
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position};
 use crate::variables::{AlarmNumber, EventId};
 
@@ -41,6 +42,34 @@ pub(in crate::sinumerik) enum SpindleOrder {
     Rotate,
     /// To and fro.
     Oscillate,
+}
+
+impl SpindleOrder {
+    /// All functions.
+    pub(in crate::sinumerik) const ALL: [Self; 3] = [Self::Position, Self::Rotate, Self::Oscillate];
+
+    /// The signal that starts it.
+    pub(in crate::sinumerik) const fn start(self) -> Signal {
+        match self {
+            Self::Position => axis_to_nck::start_spindle_positioning,
+            Self::Rotate => axis_to_nck::start_spindle_rotation,
+            Self::Oscillate => axis_to_nck::start_spindle_oscillation,
+        }
+    }
+
+    /// Whether the PLC starts it.
+    fn is_started(self, signals: &AxisToNck) -> bool {
+        match self {
+            Self::Position => signals.start_spindle_positioning(),
+            Self::Rotate => signals.start_spindle_rotation(),
+            Self::Oscillate => signals.start_spindle_oscillation(),
+        }
+    }
+
+    /// The functions that the PLC starts.
+    pub(super) fn started(signals: &AxisToNck) -> impl Iterator<Item = Self> + '_ {
+        Self::ALL.into_iter().filter(|order| order.is_started(signals))
+    }
 }
 
 /// How an order ended.
@@ -98,10 +127,9 @@ pub(in crate::sinumerik) struct SingleAxis {
     pub feed: f32,
     /// The event behind 76.5 and DBD78.
     pub positioning_cause: EventId,
-    /// Start, the starts of a spindle, and 2.2 in the last cycle.
+    /// Start, the start of a spindle function, the stops of a spindle, and 2.2 in the last cycle.
     pub start_was: bool,
-    pub spindle_was: bool,
-    /// Its stops.
+    pub spindle_was: Option<SpindleOrder>,
     pub spindle_stop_was: bool,
     pub delete_was: bool,
     pub independence: Independence,

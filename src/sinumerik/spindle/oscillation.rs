@@ -52,12 +52,13 @@ impl State {
         }
     }
 
-    /// The PLC does not let a spindle oscillate any more.
+    /// The PLC does not let a spindle oscillate any more: its order has ended in this cycle.
     pub(super) fn end_plc_oscillation(&mut self, number: AxisNumber) {
+        let of_order = self.single.axes[number].cause;
         if let Some(spindle) = self.spindles[number].as_deref_mut()
             && spindle.plc_oscillation.take().is_some()
         {
-            spindle.oscillation_cause = spindle.cause;
+            (spindle.oscillation_cause, spindle.cause) = (of_order, of_order);
         }
     }
 }

@@ -26,8 +26,9 @@ impl State {
         let speed_stays = parameters.programs[channel].as_deref().is_some_and(|own| own.speed_stays);
         for number in parameters.spindles.and(parameters.channels[channel].axes).iter() {
             let runs_on = parameters.axes[number].spindle.as_deref().is_some_and(|own| own.runs_on);
+            let oscillates = self.plc_oscillates(number);
             if let Some(spindle) = self.spindles[number].as_deref_mut().filter(|_| !runs_on) {
-                if spindle.is_programmed() || spindle.mode != Mode::Control {
+                if spindle.is_programmed() || spindle.mode != Mode::Control || oscillates {
                     spindle.cause = event;
                 }
                 spindle.leave_positioning(event);
@@ -62,6 +63,7 @@ impl State {
         let (reset, delete) = (signals.delete_distance_to_go_spindle_reset(), signals.delete_s_value());
         let stop = self.spindle_stop(unit, parameters);
         let pressed = pressed_stop(unit, to_nck);
+        let oscillates = self.plc_oscillates(number);
         let Some(spindle) = self.spindles[number].as_deref_mut() else { return };
         let reset_rises = reset && !std::mem::replace(&mut spindle.reset_was, reset);
         let delete_rises = delete && !std::mem::replace(&mut spindle.delete_was, delete);
@@ -77,7 +79,7 @@ impl State {
         };
         if let Some((rule, input, cause)) = ends {
             (spindle.direction, spindle.stopped, spindle.is_ended) = (0, false, true);
-            if programmed {
+            if programmed || oscillates {
                 spindle.cause = self.log.now(place, cause, rule, [input, Input::None, Input::None]);
             }
             spindle.leave_positioning(spindle.cause);

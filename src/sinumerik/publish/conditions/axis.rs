@@ -169,6 +169,11 @@ impl Look<'_> {
             let enable = self.axis(axis, axis_to_nck::controller_enable, true);
             [enable, self.selects_one(axis), self.pulses_enabled(axis), self.no_follow_up_alarm(axis)]
         }));
+        // Position control of an axis begins when its brake is open.
+        let has_brake = |axis: &AxisNumber| self.state.axes[*axis].brake != Brake::None;
+        all.extend(
+            unit.members().filter(has_brake).map(|axis| self.axis(axis, axis_from_nck::holding_brake_open, true)),
+        );
         Condition::All(all)
     }
 

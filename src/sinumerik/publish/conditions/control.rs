@@ -6,6 +6,7 @@ use crate::image::{
 };
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::operation::state::{MachineFunction, Mode};
+use crate::sinumerik::program::state::Run;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
 use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
@@ -152,6 +153,10 @@ impl Look<'_> {
         Fact::new(format!("mode of mode group {group}"), name(mode), name(wanted), mode == wanted).after(|| {
             let asks = |signal, value| self.mode_group(group, signal, value);
             let mut all = vec![asks(mode_group_to_nck::mode_change_inhibit, false)];
+            let refused = self.state.mode_groups[group].refused == Some(wanted);
+            if wanted != Mode::Jog {
+                all.push(self.no_program(group, |run| run.is_mda != (wanted == Mode::Mda), refused));
+            }
             // JOG has priority over MDA, MDA over AUTO.
             match wanted {
                 Mode::Jog => all.push(asks(mode_group_to_nck::mode_jog, true)),
@@ -177,17 +182,45 @@ impl Look<'_> {
                 asks(mode_group_to_nck::machine_function_teach_in, true),
             ],
             // REF has priority over REPOS.
-            MachineFunction::Repos => vec![
-                asks(mode_group_from_nck::active_mode_jog, true),
-                asks(mode_group_to_nck::machine_function_repos, true),
-                asks(mode_group_to_nck::machine_function_ref, false),
-            ],
-            MachineFunction::Reference => vec![
-                asks(mode_group_from_nck::active_mode_jog, true),
-                asks(mode_group_to_nck::machine_function_ref, true),
-            ],
+            MachineFunction::Repos => {
+                let is_refused = self.state.mode_groups[group].refused_reference;
+                let mut all = vec![
+                    asks(mode_group_from_nck::active_mode_jog, true),
+                    asks(mode_group_to_nck::machine_function_repos, true),
+                ];
+                all.extend((!is_refused).then(|| asks(mode_group_to_nck::machine_function_ref, false)));
+                all
+            }
+            MachineFunction::Reference => {
+                let mut all = vec![
+                    asks(mode_group_from_nck::active_mode_jog, true),
+                    asks(mode_group_to_nck::machine_function_ref, true),
+                ];
+                // What refuses it is tested while it is requested.
+                let mode = &self.state.mode_groups[group];
+                let is_requested = mode.mode == Mode::Jog && self.to_nck.mode_groups[group].machine_function_ref();
+                let is_refused = mode.refused_reference;
+                if is_refused || !is_requested {
+                    all.push(self.no_program(group, |_| true, is_refused));
+                }
+                all
+            }
             MachineFunction::None => Vec::new(),
         })
+    }
+
+    /// No program of a mode group that has not ended stands against its request (16913, 16914).
+    fn no_program(self, group: ModeGroupNumber, hinders: impl Fn(&Run) -> bool, refuses: bool) -> Condition {
+        let mut channels = self.parameters.existing_channels().filter(|(_, of)| *of == group);
+        let hindering =
+            channels.find(|(channel, _)| self.state.programs[*channel].run.as_deref().is_some_and(&hinders));
+        let found = match hindering {
+            Some((channel, _)) => self.channel_name(channel),
+            None if refuses => "one, which ended in this cycle".to_owned(),
+            None => "none".to_owned(),
+        };
+        let holds = found == "none";
+        Fact::new(format!("program of mode group {group} that has not ended"), found, "none", holds).into()
     }
 
     fn mode_group_ready(self, group: ModeGroupNumber) -> Condition {

@@ -4,8 +4,8 @@
 use crate::control::{Condition, Fact};
 use crate::image::{Signal, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck, nck_hmi, nck_to_nck};
 use crate::sinumerik::jog::state::Function;
-use crate::sinumerik::publish::conditions::look::{Look, Row};
-use crate::units::{AxisNumber, ModeGroupNumber};
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 
 /// The signals of an axis.
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
@@ -119,7 +119,15 @@ impl Look<'_> {
                 let what = format!("{} is a synchronous axis of a closed gantry grouping", self.axis_name(number));
                 all.push(Fact::new(what, "yes", "no", false).into());
             }
-            if wanted { Condition::All(all) } else { Condition::All(all).opposite() }
+            if !wanted {
+                return Condition::All(all).opposite();
+            }
+            if self.state.single.axes[unit.leader()].order.is_some() {
+                // It is not jogged meanwhile.
+                let what = format!("positioning of {} by the PLC or a synchronised action", self.axis_name(number));
+                all.push(Fact::new(what, "runs", "none", false).into());
+            }
+            Condition::All(all)
         })
     }
 
@@ -133,6 +141,37 @@ impl Look<'_> {
                 Fact::new(what, "none", direction, false).into(),
             ])
         })
+    }
+
+    /// What begins a handwheel override (K-31): a movement that asks for it, and a handwheel of the axis.
+    pub(super) fn override_begins(self, axis: AxisNumber, is_axial: bool) -> Condition {
+        let name = self.axis_name(axis);
+        let asks = self.state.axes[axis].by_handwheel.is_some_and(|one| one.is_axial == is_axial);
+        let what = if is_axial {
+            format!("positioning of {name} with FDA, or with function 7 or 8 of FC 18")
+        } else {
+            format!("block with FD, with the handwheel of {name}")
+        };
+        let movement = Fact::new(what, if asks { "runs" } else { "none" }, "runs", asks).into();
+        let by_hmi = self.state.handwheels.iter().any(|handwheel| handwheel.selected == Some(axis));
+        let selected = Fact::new(
+            format!("handwheel that the HMI selects for {name}"),
+            if by_hmi { "one" } else { "none" },
+            "one",
+            by_hmi,
+        );
+        let by_plc = ASSIGNED.iter().map(|[by_plc, ..]| self.axis(axis, *by_plc, true));
+        Condition::All(vec![movement, Condition::Any(by_plc.chain([selected.into()]).collect())])
+    }
+
+    /// The same for the path of a channel: its first geometry axis has the handwheel.
+    pub(super) fn override_of_path_begins(self, channel: ChannelNumber) -> Condition {
+        let own = self.parameters.programs[channel].as_deref();
+        let axis = own.and_then(|own| own.axes.geometry[0].map(|place| own.axes.path[place]));
+        match axis {
+            Some(axis) => self.override_begins(axis, false),
+            None => fact(format!("{} has a first geometry axis", self.channel_name(channel)), false).into(),
+        }
     }
 
     /// By the PLC, or by the HMI for a machine axis.

@@ -3,6 +3,7 @@
 
 use crate::control::{Condition, Fact, Question};
 use crate::image::{Names, NckHmi, Signal, ToNck};
+use crate::nc_program::Library;
 use crate::sinumerik::alarms::Alarm;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::inputs::required;
@@ -18,6 +19,7 @@ use crate::variables::{Place, axis_name, place_name, six_decimals};
 pub(super) struct Look<'a> {
     pub(super) state: &'a State,
     pub(super) parameters: &'a Parameters,
+    pub(super) library: &'a Library,
     pub(super) to_nck: &'a ToNck,
     pub(super) hmi: &'a NckHmi,
     pub(super) names: &'a Names,

@@ -42,7 +42,8 @@ impl Nck {
     /// What must hold so that a bit has a value; `None` for a signal without conditions.
     #[must_use]
     pub fn conditions(&self, question: &Question<'_>, to_nck: &ToNck, hmi: &NckHmi) -> Option<Condition> {
-        let look = Look { state: &self.state, parameters: &self.parameters, to_nck, hmi, names: question.names };
+        let (state, parameters, library) = (&*self.state, &*self.parameters, &*self.programs);
+        let look = Look { state, parameters, library, to_nck, hmi, names: question.names };
         if let Some(hidden) = look.not_shown(question.place, question.wanted) {
             return Some(hidden);
         }

@@ -11,6 +11,7 @@ use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::program::path::Stage;
+use crate::sinumerik::program::positioning::{Handwheel, Positioning};
 use crate::sinumerik::program::state::{ProgramState, Run};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
 use crate::sinumerik::single_axis::state::OrderedBy;
@@ -144,7 +145,7 @@ impl Look<'_> {
 
     /// What ends the positioning of an axis before its target: delete distance-to-go, and what stops its channel, unless the PLC has taken it
     /// out of it (28.x).
-    fn ends_positioning(self, number: AxisNumber, unit: &Unit) -> Vec<Condition> {
+    pub(super) fn ends_positioning(self, number: AxisNumber, unit: &Unit) -> Vec<Condition> {
         let delete = axis_to_nck::delete_distance_to_go_spindle_reset;
         let rises = self.rises(Place::Axis(number), delete, self.state.single.axes[number].delete_was);
         let mut any = vec![Condition::All(vec![self.axis(number, delete, true), rises])];
@@ -154,10 +155,11 @@ impl Look<'_> {
         any
     }
 
-    /// The PLC starts the positioning of an axis that it has taken.
+    /// The PLC starts the positioning of an axis that it has taken, or a function of a spindle.
     fn started_by_plc(self, number: AxisNumber) -> Option<Condition> {
         let is_plc_axis = self.state.owners.of(number).holder == Holder::Plc;
-        (is_plc_axis && self.state.single.axes[number].order.is_none()).then(|| self.start_of_positioning(number))
+        let one = &self.state.single.axes[number];
+        (is_plc_axis && one.order.is_none() && one.spindle.is_none()).then(|| self.start_by_plc(number))
     }
 
     /// What ends a request or a command: the opposite of what it needs, and what ends a movement only in its course.
@@ -396,9 +398,20 @@ impl Look<'_> {
             return None;
         }
         if let Some(positioning) = run.positionings.iter().find(|one| one.axis == leader) {
-            return Some(vec![self.override_of(leader, State::override_of_positioning(positioning, &stage))]);
+            let factor = self.override_of(leader, State::override_of_positioning(positioning, &stage));
+            return Some(std::iter::once(factor).chain(self.pulses_of_override(positioning)).collect());
         }
         stage.own.axes.path.contains(&leader).then(|| self.path_not_held(run, &stage))
+    }
+
+    /// With FDA = 0 only pulses of its handwheel move the axis.
+    fn pulses_of_override(self, positioning: &Positioning) -> Option<Condition> {
+        let axis = &self.state.axes[positioning.axis];
+        let is_moved = positioning.handwheel == Handwheel::Way && axis.by_handwheel.is_some_and(|one| one.is_active);
+        let way = (positioning.target - axis.setpoint.position).increments().signum();
+        let what = format!("pulses of the handwheel of {} (FDA = 0)", self.axis_name(positioning.axis));
+        let waits = is_moved && axis.setpoint.is_at_rest() && way != 0;
+        waits.then(|| Fact::new(what, "none", sign(if way > 0 { 1 } else { -1 }), false).into())
     }
 
     /// Neither a signal nor an override of 0 % holds the path of a channel.

@@ -3,9 +3,10 @@
 use crate::control::{Condition, Fact, Question};
 use crate::image::{
     ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck,
-    mode_group_from_nck, mode_group_to_nck,
+    mode_group_from_nck, mode_group_to_nck, nck_from_nck,
 };
 use crate::nc_program::g;
+use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::program::state::{Phase, ProgramState, WaitFor};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
@@ -56,7 +57,8 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         let overrides =
             |axis: AxisNumber| look.state.axes[axis].by_handwheel.is_some_and(|one| one.is_active && !one.is_axial);
         let active = look.state.owners.of_channel(channel).iter().any(overrides);
-        fact(format!("a handwheel overrides the path of {}", look.channel_name(channel)), active).into()
+        fact(format!("a handwheel overrides the path of {}", look.channel_name(channel)), active)
+            .after(|| look.override_of_path_begins(channel))
     }),
     Row::new(channel_search_from_nck::associated_m0_m1_active, |look, channel| {
         let is_stopped = look.state.programs[channel].associated_stop;
@@ -115,38 +117,111 @@ impl Look<'_> {
         let found = self.state.programs[channel].state;
         let what = format!("state of the program of {}", self.channel_name(channel));
         let fact = Fact::new(what, word(found), word(wanted), found == wanted);
-        if wanted == ProgramState::Running { fact.after(|| self.program_starts(channel)) } else { fact.into() }
+        match (wanted, found) {
+            (ProgramState::Running, ProgramState::Waiting) => fact.after(|| self.no_wait(channel)),
+            (ProgramState::Running, _) => fact.after(|| self.program_starts(channel)),
+            _ => fact.into(),
+        }
     }
 
-    /// What NC start tests, in the order of `program/start.rs`.
+    /// What a program that waits waits for.
+    fn no_wait(self, channel: ChannelNumber) -> Condition {
+        let found = match self.state.programs[channel].run.as_deref().and_then(|run| run.waits.as_ref()) {
+            Some(WaitFor::Mark { mark, .. }) => format!("for mark {mark} in other channels"),
+            Some(WaitFor::End(_)) => "for the end of programs of other channels".to_owned(),
+            None => "for an axis that it does not have".to_owned(),
+        };
+        Fact::new(format!("wait of {}", self.channel_name(channel)), found, "none", false).into()
+    }
+
+    /// What NC start, or START of another channel, tests, in the order of `program/start.rs`.
     fn program_starts(self, channel: ChannelNumber) -> Condition {
+        let mut all = vec![
+            self.mode_of_start(channel),
+            self.not_disabled(channel, channel_to_nck::nc_start_disable, UserReaction::NcStart),
+            self.referenced_for_start(channel),
+            self.no_alarm(format!("alarm that disables NC start of {}", self.channel_name(channel)), |place, alarm| {
+                self.state.locks_start((place, alarm), channel, self.parameters)
+            }),
+            self.not_stopped(channel),
+            self.nck(nck_from_nck::nc_ready, true),
+        ];
+        let is_first = self.state.programs[channel].state == ProgramState::Aborted;
+        all.extend(is_first.then(|| self.selected_program(channel)));
+        let others = self.parameters.existing_channels().count() > 1;
+        let start = format!("START({channel}) in the program of another channel");
+        let by_program = (is_first && others).then(|| Fact::new(start, "none", "one", false).into());
+        all.push(match by_program {
+            Some(by_program) => Condition::Any(vec![self.nc_start(channel), by_program]),
+            None => self.nc_start(channel),
+        });
+        Condition::All(all)
+    }
+
+    /// The key: its rising edge, while nothing stops the channel.
+    fn nc_start(self, channel: ChannelNumber) -> Condition {
         let asks = |signal, value| self.channel(channel, signal, value);
         let group = self.parameters.mode_group(channel);
-        let modes = [mode_group_from_nck::active_mode_automatic, mode_group_from_nck::active_mode_mdi];
-        let program = &self.state.programs[channel];
         let was = self.state.channels[channel].start_was;
-        let selected = match (program.state, &program.selected) {
-            (ProgramState::Aborted, None) => ("none".to_owned(), false),
-            (ProgramState::Aborted, Some(path)) => (path.clone(), true),
-            _ => (word(program.state).to_owned(), true),
-        };
         Condition::All(vec![
-            Condition::Any(modes.map(|mode| self.mode_group(group, mode, true)).into()),
-            self.not_disabled(channel, channel_to_nck::nc_start_disable, UserReaction::NcStart),
             asks(channel_to_nck::nc_stop, false),
             asks(channel_to_nck::nc_stop_at_block_limit, false),
             asks(channel_to_nck::nc_stop_axes_plus_spindles, false),
             self.mode_group(group, mode_group_to_nck::mode_group_stop, false),
             self.mode_group(group, mode_group_to_nck::mode_group_stop_axes_plus_spindles, false),
-            asks(channel_from_nck::all_axes_requiring_reference_point_are_referenced, true),
-            self.no_alarm(format!("alarm that disables NC start of {}", self.channel_name(channel)), |place, alarm| {
-                self.state.locks_start((place, alarm), channel, self.parameters)
-            }),
-            self.not_stopped(channel),
-            Fact::new("selected program", selected.0, "one", selected.1).into(),
             asks(channel_to_nck::nc_start, true),
             Fact::new("NC start in the last cycle", u8::from(was).to_string(), "0", !was).into(),
         ])
+    }
+
+    /// AUTOMATIC or MDA; a program that is stopped goes on in its own mode.
+    fn mode_of_start(self, channel: ChannelNumber) -> Condition {
+        let group = self.parameters.mode_group(channel);
+        let [automatic, mda] = [mode_group_from_nck::active_mode_automatic, mode_group_from_nck::active_mode_mdi]
+            .map(|mode| self.mode_group(group, mode, true));
+        match self.state.programs[channel].run.as_deref() {
+            Some(run) if run.is_mda => mda,
+            Some(_) => automatic,
+            None => Condition::Any(vec![automatic, mda]),
+        }
+    }
+
+    /// 36.2; with MD20700 = 2 it suffices in MDA that positions are restored.
+    fn referenced_for_start(self, channel: ChannelNumber) -> Condition {
+        let referenced =
+            self.channel(channel, channel_from_nck::all_axes_requiring_reference_point_are_referenced, true);
+        let own = &self.parameters.channels[channel];
+        if !own.restored_suffices_in_mda {
+            return referenced;
+        }
+        let unknown: Vec<_> = own
+            .reference_needed
+            .iter()
+            .filter(|axis| !self.state.axes[*axis].knows_position())
+            .map(|axis| self.axis_name(axis))
+            .collect();
+        let found = if unknown.is_empty() { "none".to_owned() } else { unknown.join(", ") };
+        let what =
+            format!("axes of {} that are neither referenced nor restored (MD20700 = 2)", self.channel_name(channel));
+        let restored = Condition::All(vec![
+            self.mode_group(self.parameters.mode_group(channel), mode_group_from_nck::active_mode_mdi, true),
+            Fact::new(what, found, "none", unknown.is_empty()).into(),
+        ]);
+        Condition::Any(vec![referenced, restored])
+    }
+
+    /// The program that NC start would begin: what was entered in MDA, or the selected one, and it exists.
+    fn selected_program(self, channel: ChannelNumber) -> Condition {
+        let program = &self.state.programs[channel];
+        let is_mda = self.state.mode_groups[self.parameters.mode_group(channel)].mode == Mode::Mda;
+        let (what, path) =
+            if is_mda { ("block entered in MDA", &program.mda) } else { ("selected program", &program.selected) };
+        let (found, holds) = match path {
+            None => ("none".to_owned(), false),
+            Some(path) if self.library.program(path).is_none() => (format!("{path}, which does not exist"), false),
+            Some(path) => (path.clone(), true),
+        };
+        Fact::new(format!("{what} of {}", self.channel_name(channel)), found, "one", holds).into()
     }
 
     /// The bits of DB21.DBB58 to 206: what is output to the PLC now.
@@ -181,14 +256,7 @@ impl Look<'_> {
         let mut all = Vec::new();
         match program.state {
             ProgramState::Running => {}
-            ProgramState::Waiting => {
-                let text = match run.waits {
-                    Some(WaitFor::Mark { mark, .. }) => format!("for mark {mark} in other channels"),
-                    Some(WaitFor::End(_)) => "for the end of programs of other channels".to_owned(),
-                    None => "for an axis that it does not have".to_owned(),
-                };
-                all.push(nothing_held("wait", &text));
-            }
+            ProgramState::Waiting => all.push(self.no_wait(channel)),
             ProgramState::Stopped | ProgramState::Interrupted | ProgramState::Aborted => {
                 all.push(self.program(channel, ProgramState::Running));
             }

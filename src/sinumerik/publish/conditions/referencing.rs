@@ -3,9 +3,11 @@
 use crate::control::{Condition, Fact};
 use crate::image::{Signal, axis_from_nck, axis_to_nck, channel_from_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::gantry::state::Phase as GroupingPhase;
+use crate::sinumerik::jog::keys::key_signal;
 use crate::sinumerik::parameters::axis::Kind;
 use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
+use crate::sinumerik::publish::conditions::motion::sign;
 use crate::sinumerik::referencing::state::Phase;
 use crate::sinumerik::state::Unit;
 use crate::sinumerik::user::state::UserReaction;
@@ -231,7 +233,20 @@ impl Look<'_> {
         let used = self.state.axes[number].key_used;
         let released =
             || fact(format!("the key of {} was released since its last start", self.axis_name(number)), !used);
-        let with = |direction| Condition::All(vec![self.key(number, direction), released().into()]);
+        let pending = self.state.axes[number].key_pending;
+        let with = |direction| {
+            if pending != direction {
+                return Condition::All(vec![self.key(number, direction), released().into()]);
+            }
+            // MD11300 = 0: the press counts until it is cancelled.
+            let what =
+                format!("the press of the key {} of {} waits for the enables", sign(direction), self.axis_name(number));
+            Condition::All(vec![
+                fact(what, true).into(),
+                self.axis(number, key_signal(-direction), false),
+                self.axis(number, axis_to_nck::traversing_key_disable, false),
+            ])
+        };
         let mut any = vec![with(forward)];
         let active = self.state.axes[number].measuring_system.map(usize::from);
         let is_absolute = active.is_some_and(|active| reference.kind[active] == Kind::Absolute);

@@ -1,9 +1,9 @@
 //! Conditions of the signals of an axis that is positioned alone: 63.0 to 63.2, 76.5, 104.0 to 104.7.
 
 use crate::control::{Condition, Fact};
-use crate::image::{axis_from_nck, axis_to_nck};
+use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
-use crate::sinumerik::single_axis::state::{OrderedBy, Outcome};
+use crate::sinumerik::single_axis::state::{OrderedBy, Outcome, SpindleOrder};
 use crate::units::AxisNumber;
 use crate::variables::Place;
 
@@ -27,17 +27,17 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
     Row::new(axis_from_nck::handwheel_override_active, |look, axis| {
         let by_handwheel = look.state.axes[axis].by_handwheel.filter(|one| one.is_axial && one.is_active);
         fact(format!("a handwheel overrides the positioning of {}", look.axis_name(axis)), by_handwheel.is_some())
-            .into()
+            .after(|| look.override_begins(axis, true))
     }),
     Row::new(axis_from_nck::positioning_axis, |look, axis| {
         let what = format!("the PLC, a synchronised action, POS or POSA positions {}", look.axis_name(axis));
         fact(what, look.state.single.positioning.contains(axis)).into()
     }),
-    Row::new(axis_from_nck::positioning_active, |look, axis| {
-        let order = look.state.single.axes[axis].order;
-        let active = order.is_some_and(|order| order.by == OrderedBy::Plc);
-        fact(format!("the PLC positions {}", look.axis_name(axis)), active).after(|| look.start_of_positioning(axis))
-    }),
+    Row::with(
+        axis_from_nck::positioning_active,
+        |look, axis| look.by_plc(axis, true).after(|| look.start_by_plc(axis)),
+        |look, axis| look.by_plc(axis, false).after(|| look.end_by_plc(axis)),
+    ),
     Row::new(axis_from_nck::position_reached, |look, axis| look.ended(axis, "reached", Outcome::Reached)),
     Row::new(axis_from_nck::positioning_error, |look, axis| {
         let outcome = look.state.single.axes[axis].outcome;
@@ -52,11 +52,56 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
 ];
 
 impl Look<'_> {
-    /// The PLC starts a positioning: its start rises.
-    pub(super) fn start_of_positioning(self, axis: AxisNumber) -> Condition {
-        let was = self.state.single.axes[axis].start_was;
-        let start = self.axis(axis, axis_to_nck::start_positioning_axis, true);
-        Condition::All(vec![start, self.rises(Place::Axis(axis), axis_to_nck::start_positioning_axis, was)])
+    fn by_plc(self, axis: AxisNumber, wanted: bool) -> Fact {
+        let one = &self.state.single.axes[axis];
+        let active = one.spindle.is_some() || one.order.is_some_and(|order| order.by == OrderedBy::Plc);
+        let what = format!("order of the PLC for {} (FC 18)", self.axis_name(axis));
+        let word = |runs| if runs { "runs" } else { "none" };
+        Fact::new(what, word(active), word(wanted), active == wanted)
+    }
+
+    /// The PLC starts the positioning of a PLC axis, or a function of a spindle: its start rises.
+    pub(super) fn start_by_plc(self, axis: AxisNumber) -> Condition {
+        let one = &self.state.single.axes[axis];
+        let mut all = vec![self.axis(axis, axis_from_nck::plc_axis, true)];
+        if self.spindle(axis).is_some() {
+            let starts = SpindleOrder::ALL.map(|order| self.axis(axis, order.start(), true));
+            let what = format!("the start of a function of {} rises: all were 0 before", self.axis_name(axis));
+            all.extend([Condition::Any(starts.into()), fact(what, one.spindle_was.is_none()).into()]);
+        } else {
+            let start = axis_to_nck::start_positioning_axis;
+            all.extend([self.axis(axis, start, true), self.rises(Place::Axis(axis), start, one.start_was)]);
+        }
+        Condition::All(all)
+    }
+
+    /// What ends an order of the PLC before its end.
+    fn end_by_plc(self, axis: AxisNumber) -> Condition {
+        let one = &self.state.single.axes[axis];
+        match (one.order, one.spindle) {
+            (Some(order), _) if order.ending.is_some() => self.setpoint_rests(axis),
+            (Some(_), _) => {
+                let start = self.axis(axis, axis_to_nck::start_positioning_axis, false);
+                let ends = self.ends_positioning(axis, &self.unit(axis));
+                Condition::Any(std::iter::once(start).chain(ends).collect())
+            }
+            (None, _) => Condition::Any(self.ends_of_spindle_function(axis)),
+        }
+    }
+
+    /// What ends a function of the PLC for a spindle.
+    pub(super) fn ends_of_spindle_function(self, axis: AxisNumber) -> Vec<Condition> {
+        let one = &self.state.single.axes[axis];
+        let place = Place::Axis(axis);
+        let pressed = |signal, was| Condition::All(vec![self.axis(axis, signal, true), self.rises(place, signal, was)]);
+        let own = match one.spindle {
+            Some(SpindleOrder::Rotate) => pressed(axis_to_nck::stop_spindle_rotation, one.spindle_stop_was),
+            Some(SpindleOrder::Oscillate) => pressed(axis_to_nck::stop_spindle_oscillation, one.spindle_stop_was),
+            Some(SpindleOrder::Position) | None => self.axis(axis, axis_to_nck::start_spindle_positioning, false),
+        };
+        let reset_was = self.state.spindles[axis].as_deref().is_some_and(|spindle| spindle.reset_was);
+        let reset = pressed(axis_to_nck::delete_distance_to_go_spindle_reset, reset_was);
+        vec![own, reset, self.nck(nck_from_nck::emergency_stop_active, true)]
     }
 
     fn ended(self, axis: AxisNumber, wanted: &str, outcome: Outcome) -> Condition {

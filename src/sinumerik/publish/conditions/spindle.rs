@@ -61,7 +61,8 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
     Row::new(axis_from_nck::positioning_mode, |look, axis| {
         look.of_spindle(axis, |_, spindle| {
             let holds = matches!(spindle.mode, Mode::Positioning(_));
-            vec![fact(format!("a program positions {}: SPOS, SPOSA, M19", look.axis_name(axis)), holds).into()]
+            let what = format!("a program (SPOS, SPOSA, M19) or the PLC positions {}", look.axis_name(axis));
+            vec![fact(what, holds).into()]
         })
     }),
     Row::with(
@@ -179,7 +180,11 @@ impl<'a> Look<'a> {
     fn oscillates(self, axis: AxisNumber, spindle: &Spindle) -> Condition {
         self.oscillation(axis, spindle, true).after(|| {
             let mut all = vec![self.speed_control(axis, spindle).into()];
-            all.extend(self.may_oscillate(axis));
+            if self.state.plc_oscillates(axis) {
+                all.extend(self.turns_freely(axis, spindle));
+            } else {
+                all.extend(self.may_oscillate(axis));
+            }
             all.push(self.stands(axis));
             Condition::All(all)
         })
@@ -190,6 +195,10 @@ impl<'a> Look<'a> {
             return Condition::from(self.is_spindle(axis)).opposite();
         };
         self.oscillation(axis, spindle, false).after(|| {
+            if self.state.plc_oscillates(axis) {
+                let held = self.turns_freely(axis, spindle).into_iter().map(Condition::opposite);
+                return Condition::Any(self.ends_of_spindle_function(axis).into_iter().chain(held).collect());
+            }
             let mut any: Vec<_> = self.may_oscillate(axis).into_iter().skip(1).map(Condition::opposite).collect();
             any.push(self.no_gear_change(axis));
             Condition::Any(any)
@@ -270,11 +279,12 @@ impl<'a> Look<'a> {
             return None;
         }
         let name = self.axis_name(axis);
+        let oscillates = self.state.plc_oscillates(axis);
         let goes = match spindle.mode {
             Mode::Axis if !self.state.axes[axis].speed_controlled => return None,
             Mode::Axis => 0,
             Mode::Positioning(_) => self.state.axes[axis].travel.request(),
-            Mode::Control if spindle.change.is_some() => self.state.axes[axis].travel.request(),
+            Mode::Control if spindle.change.is_some() || oscillates => self.state.axes[axis].travel.request(),
             Mode::Control => spindle.direction_of_turning(&self.to_nck.axes[axis]),
         };
         let found = match spindle.mode {
@@ -283,12 +293,14 @@ impl<'a> Look<'a> {
             Mode::Control if spindle.change.is_some() => {
                 format!("its gear stage is being changed, direction {}", sign(goes))
             }
+            Mode::Control if oscillates => format!("oscillates for the PLC, direction {}", sign(goes)),
             Mode::Control if spindle.jog != 0 => format!("turned by a key, direction {}", sign(goes)),
             Mode::Control => format!("M{} S{}, direction {}", spindle.direction_in_words(), spindle.speed, sign(goes)),
         };
         let wanted = format!("direction {}", sign(direction));
         let function = Fact::new(format!("function of {name}"), found, wanted, goes == direction);
-        let may_jog = spindle.mode == Mode::Control && spindle.change.is_none() && !spindle.is_programmed();
+        let is_busy = spindle.change.is_some() || oscillates || spindle.is_programmed();
+        let may_jog = spindle.mode == Mode::Control && !is_busy;
         let mut all: Vec<Condition> = Vec::new();
         if may_jog && spindle.jog == 0 && self.state.is_jogging(unit) {
             // Only a rising edge starts it.
