@@ -81,7 +81,7 @@ pub(super) struct Modal {
     pub absolute: bool,
     /// G17 to G19.
     pub plane: u16,
-    /// As it is programmed.
+    /// In mm/min.
     pub feed: f64,
     /// G41 or G42.
     pub compensation: bool,
@@ -134,7 +134,7 @@ pub(super) struct Channel {
     /// The block that runs without the path.
     pub shown: u32,
     pub modal: Modal,
-    /// Initial feed (P-CHAN-00099), and the unit of F in mm/min (P-CHAN-00108 / 100).
+    /// Initial feed in mm/min (P-CHAN-00099), and the unit of F in mm/min (P-CHAN-00108).
     pub first_feed: f64,
     pub feed_unit: f64,
     /// Axes in manual mode (G201).

@@ -270,7 +270,7 @@ impl State {
             channel.restores_after_end = list.preserve_after_program_end;
             channel.retains_axes = list.retain_last_configuration;
             channel.first_feed = list.default_feed;
-            channel.feed_unit = list.feedrate_factor / 100.0;
+            channel.feed_unit = if list.is_feed_in_m_per_minute { 1000.0 } else { 1.0 };
         }
     }
 

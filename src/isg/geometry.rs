@@ -45,7 +45,7 @@ impl State {
         let feed = if modal.motion == 0 {
             Feed::Rapid
         } else {
-            let feed = modal.feed * channel.feed_unit * Position::PER_USER_UNIT / 60.0;
+            let feed = modal.feed * Position::PER_USER_UNIT / 60.0;
             if feed <= 0.0 {
                 return Err(value("no feed"));
             }

@@ -309,7 +309,7 @@ impl State {
             if feed < 0.0 || !feed.is_finite() {
                 return Err(value("F below 0"));
             }
-            modal.feed = feed;
+            modal.feed = feed * self.channels[index].feed_unit;
         }
         // A circle without an end point is a full one.
         let is_circle = modal.motion >= 2 && (block.radius.is_some() || block.centre.iter().any(Option::is_some));
