@@ -205,6 +205,8 @@ impl Configuration for ParameterLists {
                     Homing { direction, .. } if direction < 0.0 => -1,
                     Homing { .. } => 1,
                 },
+                // A master and its slaves that start a little apart home at the same zero mark.
+                cam_is_fixed: true,
                 zero_mark_spacing: [Position::from_user(10.0); 2],
                 encoders: [EncoderModel::Incremental; 2],
                 ..AxisHints::default()

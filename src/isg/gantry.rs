@@ -170,7 +170,7 @@ impl State {
             let leader = one.coupling.leader();
             one.coupling.set_limits(|slave| {
                 let parameters = &axes[slave].parameters;
-                let is_homed = axes[slave].homed && axes[leader].homed;
+                let is_homed = axes[slave].has_reference() && axes[leader].has_reference();
                 parameters.limits.filter(|_| parameters.is_monitored(is_homed))
             });
             one.coupling.compare(&AxesView(axes), &mut events);

@@ -73,6 +73,8 @@ pub(super) struct Axis {
     pub shift: Position,
     pub homed: bool,
     pub run: Option<Run>,
+    /// A slave whose combination is being homed: its difference is not absolute until all are homed (HG-29).
+    pub waits_for_others: bool,
     pub error: Option<AxisError>,
     pub units: Units,
     /// The drive has been ready since the start.
@@ -94,6 +96,11 @@ impl Axis {
     /// The actual value.
     pub(super) fn actual(&self) -> Position {
         self.feedback.encoders[0].value + self.shift
+    }
+
+    /// Whether differences count from its reference.
+    pub(super) fn has_reference(&self) -> bool {
+        self.homed && !self.waits_for_others
     }
 
     /// Setpoint minus actual value.
@@ -173,6 +180,6 @@ impl Axes for AxesView<'_> {
     }
 
     fn is_referenced(&self, axis: AxisNumber) -> bool {
-        self.0[axis].homed
+        self.0[axis].has_reference()
     }
 }

@@ -15,6 +15,7 @@ use super::pending::of_axis;
 use super::phases::HOMING;
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
+use crate::motion::Motion;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
 
@@ -41,6 +42,21 @@ impl State {
         job.running.iter().flat_map(|chain| &chain.members).flat_map(|axis| self.coupled_with(*axis)).collect()
     }
 
+    /// The axes of a homing that is held brake as their runs do.
+    pub(super) fn brake_homing(&mut self, job: &Job) {
+        for member in job.running.iter().flat_map(|chain| &chain.members) {
+            if self.axes[*member].run.is_some() {
+                let deceleration = self.homing_deceleration(*member);
+                self.axes[*member].motion = Some(Motion::Brake { deceleration });
+            }
+        }
+    }
+
+    /// How a homing run brakes that is no error: P-AXIS-00285, the smallest of the axes that are coupled.
+    pub(super) fn homing_deceleration(&self, axis: AxisNumber) -> f64 {
+        self.smallest(axis, |parameters| parameters.homing.acceleration)
+    }
+
     /// Ends a homing without a reference.
     pub(super) fn end_homing(&mut self, job: &Job, cause: EventId) {
         for member in job.running.iter().flat_map(|chain| &chain.members) {
@@ -61,8 +77,9 @@ impl State {
             return Chain { members: vec![axis], ended: 0, at_once: false };
         };
         let coupling = &self.combinations[index].coupling;
+        let leader = coupling.leader();
         let runs =
-            |member: &AxisNumber| *member == coupling.leader() || !self.axes[*member].parameters.takes_masters_homing;
+            |member: &AxisNumber| *member == leader || !self.axes[*member].parameters.takes_masters_homing;
         let members: Vec<AxisNumber> = coupling.members().filter(runs).collect();
         // HG-10, HG-23: only drives that home by themselves begin at once.
         let at_once = coupling.followers().any(|slave| self.axes[slave].parameters.homes_at_once)
@@ -74,6 +91,7 @@ impl State {
             if !self.axes[*member].parameters.homing.disabled {
                 self.axes[*member].homed = false;
             }
+            self.axes[*member].waits_for_others = *member != leader;
         }
         if at_once {
             self.combinations[index].homes_at_once = true;
@@ -84,6 +102,15 @@ impl State {
     }
 
     fn end_chain(&mut self, chain: &Chain) {
+        // HG-29: from here on the differences of all count from P-AXIS-00073.
+        let Self { combinations, axes, .. } = self;
+        for member in &chain.members {
+            if std::mem::take(&mut axes[*member].waits_for_others) {
+                for one in &mut *combinations {
+                    one.coupling.value_shifted(*member, Position::ZERO, &AxesView(axes));
+                }
+            }
+        }
         let Some(index) = chain.members.first().and_then(|first| self.combination_of(*first)) else { return };
         let view = AxesView(&self.axes);
         let one = &mut self.combinations[index];
