@@ -68,6 +68,8 @@ pub(super) struct ChannelCauses {
     pub program: EventId,
     pub error: EventId,
     pub block: EventId,
+    /// The NC start that the present block needed.
+    pub started: EventId,
     pub feed_override: EventId,
     pub reset: EventId,
 }

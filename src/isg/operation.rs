@@ -54,8 +54,8 @@ impl State {
         let place = Place::Channel(channel.number);
         match channel.task {
             Task::Stands => {
-                let event = self.log.note_one(place, Why::BlockRuns, input, channel.causes.program);
-                channel.causes.block = event;
+                let event = self.log.note_one(place, Why::GoesOn, input, channel.causes.program);
+                (channel.causes.block, channel.causes.started) = (event, event);
                 channel.task = Task::Runs;
             }
             Task::Idle if !channel.error => {
@@ -196,7 +196,7 @@ impl State {
         self.channels[index].axes.iter().all(|member| self.axes[member.axis].setpoint.is_at_rest())
     }
 
-    /// The axes brake, each with its a_emergency after an error (HG-22), on the path after a reset.
+    /// The axes brake: each with its a_emergency after an error (HG-22); on the path after a reset, or as a homing run brakes.
     fn step_abort(&mut self, index: usize) {
         let is_error = self.channels[index].error;
         let channel = &mut self.channels[index];
@@ -206,7 +206,8 @@ impl State {
             }
             let axes: Vec<AxisNumber> = channel.axes.iter().map(|member| member.axis).collect();
             for axis in axes.iter().filter(|axis| !self.channels[index].is_slave(**axis)) {
-                let deceleration = self.axes[*axis].parameters.emergency;
+                let deceleration =
+                    if is_error { self.axes[*axis].parameters.emergency } else { self.homing_deceleration(*axis) };
                 self.axes[*axis].motion = Some(Motion::Brake { deceleration });
             }
         } else {
@@ -351,7 +352,7 @@ impl Channel {
         self.task = Task::Runs;
         self.completed = false;
         self.ended = false;
-        (self.causes.program, self.causes.block) = (cause, cause);
+        (self.causes.program, self.causes.block, self.causes.started) = (cause, cause, cause);
         self.interpreter = Some(Interpreter::new(path, lenient));
         (self.prepared, self.fault, self.wait) = (None, None, Wait::Nothing);
         self.blocks.clear();

@@ -7,6 +7,7 @@ use super::homing::job::Job;
 use super::language::{Block, Command, End, Environment, Fault, FaultCode, Prepared, Refusal, Variables, is_called};
 use super::links::Refused;
 use super::messages;
+use super::publish::block_name;
 use super::rules::Why;
 use super::state::State;
 use crate::nc_program::Program;
@@ -159,16 +160,22 @@ impl State {
         let inputs = self.channels[index].inputs;
         let holds = inputs.feed_hold || inputs.feed_override == 0;
         let left = match wait {
-            Wait::Nothing | Wait::Dwell(0) => Wait::Nothing,
+            // The cycle in which a dwell ends goes on with the next block.
+            Wait::Nothing | Wait::Dwell(0 | 1) => Wait::Nothing,
             Wait::Dwell(cycles) => Wait::Dwell(cycles - 1),
-            Wait::Homing(job) if holds || self.misses_feed_enable(&job) => Wait::Homing(job),
+            Wait::Homing(job) if holds || self.misses_feed_enable(&job) => {
+                self.brake_homing(&job);
+                Wait::Homing(job)
+            }
             Wait::Homing(mut job) => {
                 if let Some(axis) = self.homing_now(&job).into_iter().find(|axis| self.lacks_releases(*axis)) {
                     self.drive_not_ready(axis);
-                    self.channels[index].wait = Wait::Homing(job);
-                    return;
+                    Wait::Homing(job)
+                } else if self.home(&mut job) {
+                    Wait::Nothing
+                } else {
+                    Wait::Homing(job)
                 }
-                if self.home(&mut job) { Wait::Nothing } else { Wait::Homing(job) }
             }
         };
         // An error of an axis has ended the program meanwhile.
@@ -329,7 +336,7 @@ impl State {
             }
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within its limits")]
             let whole = cycles.ceil() as u64;
-            self.channels[index].wait = Wait::Dwell(whole);
+            self.channels[index].wait = if whole == 0 { Wait::Nothing } else { Wait::Dwell(whole) };
         }
         if !block.homing.is_empty() {
             self.begin_homing(index, block, cause)?;
@@ -367,10 +374,8 @@ impl State {
             return;
         }
         channel.shown = number;
-        let mut name = crate::variables::BlockName::new();
-        let _ = std::fmt::Write::write_fmt(&mut name, format_args!("N{number}"));
-        let place = Place::Channel(channel.number);
-        channel.causes.block = self.log.note_one(place, Why::BlockRuns, Input::Block(name), channel.causes.program);
+        let (place, name) = (Place::Channel(channel.number), block_name(number));
+        channel.causes.block = self.log.note_one(place, Why::BlockRuns, Input::Block(name), channel.causes.started);
     }
 
     fn begin_homing(&mut self, index: usize, block: &Block, cause: EventId) -> Outcome {

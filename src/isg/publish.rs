@@ -1,5 +1,6 @@
 //! The CNC's half of the HLI, the variables, and the events behind both.
 
+use std::fmt::Write;
 use std::sync::Arc;
 
 use super::hli::{AxisFromCnc, FromCnc, axis_from_cnc, channel_from_cnc};
@@ -7,7 +8,7 @@ use super::rules::Why;
 use super::state::{Axis, AxisError, State};
 use crate::image::View;
 use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AxisValues, EventId, FaultName, Input, Place, Variables};
+use crate::variables::{AxisValues, BlockName, EventId, FaultName, Input, Place, Variables};
 
 /// The axis states of the HLI.
 const READY: u8 = 1;
@@ -197,7 +198,7 @@ impl State {
     }
 
     /// The event behind a bit of a channel.
-    pub(super) fn channel_cause(&self, number: ChannelNumber, byte: u16, bit: u8) -> EventId {
+    pub(super) fn channel_cause(&mut self, number: ChannelNumber, byte: u16, bit: u8) -> EventId {
         let Some(channel) = self.channels.iter().find(|channel| channel.number == number) else {
             return self.power_on;
         };
@@ -209,11 +210,22 @@ impl State {
             causes.program
         } else if byte == channel_from_cnc::state.byte {
             causes.program.max(causes.error)
+        } else if byte >= channel_from_cnc::block.byte && channel.block() != 0 {
+            // Blocks are fetched ahead of the path: the cause names the one that runs.
+            let (place, input, started) = (Place::Channel(number), block_name(channel.block()), causes.started);
+            return self.log.note_one(place, Why::BlockRuns, Input::Block(input), started);
         } else if byte >= channel_from_cnc::block.byte {
-            causes.block.max(causes.program)
+            causes.program
         } else {
             causes.feed_override
         };
         if cause.is_some() { cause } else { self.power_on }
     }
+}
+
+/// A block as it is shown.
+pub(super) fn block_name(number: u32) -> BlockName {
+    let mut name = BlockName::new();
+    let _ = write!(name, "N{number}");
+    name
 }

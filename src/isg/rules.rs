@@ -56,6 +56,7 @@ rules! {
     GroupEnds: "SG-09", "program end or reset ends a coupling";
     GroupRestored: "SG-09", "the program start switches a coupling on again (P-CHAN-00104, P-CHAN-00105)";
     ProgramStarts: "NC", "a rising edge of NC start starts the selected program";
+    GoesOn: "NC", "a rising edge of NC start continues the program that stands after a block";
     ProgramEnds: "NC", "the program has reached its end";
     ProgramAborted: "NC", "a message ends the program";
     ResetEnds: "NC", "a rising edge of NC reset ends the program";
