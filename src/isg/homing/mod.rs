@@ -78,8 +78,7 @@ impl State {
         };
         let coupling = &self.combinations[index].coupling;
         let leader = coupling.leader();
-        let runs =
-            |member: &AxisNumber| *member == leader || !self.axes[*member].parameters.takes_masters_homing;
+        let runs = |member: &AxisNumber| *member == leader || !self.axes[*member].parameters.takes_masters_homing;
         let members: Vec<AxisNumber> = coupling.members().filter(runs).collect();
         // HG-10, HG-23: only drives that home by themselves begin at once.
         let at_once = coupling.followers().any(|slave| self.axes[slave].parameters.homes_at_once)
