@@ -27,6 +27,8 @@ const FACTOR: Key = Key::new(100_108);
 /// The two values of P-CHAN-00108.
 const IN_MM_PER_MINUTE: f64 = 100.0;
 const IN_M_PER_MINUTE: f64 = 0.1;
+/// It counts as no entry.
+const WITHOUT_UNIT: f64 = -1.0;
 
 /// What a channel must know about an axis.
 #[derive(Clone, Debug)]
@@ -102,7 +104,7 @@ fn feed_unit(draft: &mut Draft<'_>, messages: &mut Vec<Message>) {
     if factor == IN_MM_PER_MINUTE || factor == IN_M_PER_MINUTE {
         return;
     }
-    if factor != -1.0 {
+    if factor != WITHOUT_UNIT {
         let mut message = draft.out_of_range(FACTOR, "0.1 (F in m/min) or 100 (F in mm/min)", "100");
         if factor <= 0.0 {
             message.class = WARNING;
