@@ -31,11 +31,13 @@ pub(super) struct Inputs {
     pub single_block: bool,
     /// In 0.1 %.
     pub feed_override: u16,
+    /// The skip levels, a bit each.
+    pub skipped: u32,
 }
 
 impl Default for Inputs {
     fn default() -> Self {
-        Self { start: false, reset: false, feed_hold: false, single_block: false, feed_override: 1000 }
+        Self { start: false, reset: false, feed_hold: false, single_block: false, feed_override: 1000, skipped: 0 }
     }
 }
 
@@ -70,7 +72,11 @@ pub(super) struct ChannelCauses {
     pub block: EventId,
     /// The NC start that the present block needed.
     pub started: EventId,
+    /// The program stands, or goes on.
+    pub stands: EventId,
+    pub selected: EventId,
     pub feed_override: EventId,
+    pub skipped: EventId,
     pub reset: EventId,
 }
 

@@ -7,12 +7,11 @@ use super::homing::job::Job;
 use super::language::{Block, Command, End, Environment, Fault, FaultCode, Prepared, Refusal, Variables, is_called};
 use super::links::Refused;
 use super::messages;
-use super::publish::block_name;
 use super::rules::Why;
 use super::state::State;
 use crate::nc_program::Program;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm, short_text};
+use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm, short_text};
 
 /// Blocks that are fetched in a cycle at most: a program that jumps for ever does not stop the time.
 const FETCHED: usize = 64;
@@ -51,8 +50,9 @@ impl Environment for View<'_> {
         self.is_executed
     }
 
-    fn is_skipped(&self, _: u8) -> bool {
-        false
+    fn is_skipped(&self, level: u8) -> bool {
+        let bit = u32::from(level.saturating_sub(1));
+        self.state.channels[self.channel].inputs.skipped.checked_shr(bit).unwrap_or(0) & 1 == 1
     }
 
     fn program(&self, path: &str) -> Option<Arc<Program>> {
@@ -89,7 +89,7 @@ impl State {
             if channel.halts {
                 if is_executed {
                     channel.halts = false;
-                    channel.task = Task::Stands;
+                    self.stand(index);
                 }
                 return;
             }
@@ -105,8 +105,8 @@ impl State {
             }
             if channel.fetched_one && channel.inputs.single_block && !channel.ended {
                 if is_executed {
-                    channel.fetched_one = false;
-                    channel.task = Task::Stands;
+                    self.channels[index].fetched_one = false;
+                    self.stand(index);
                 }
                 return;
             }
@@ -210,6 +210,10 @@ impl State {
         let event = self.log.note_plain(Place::Channel(channel.number), Why::ProgramEnds, channel.causes.program);
         channel.causes.program = event;
         channel.end_program(true);
+        if channel.retains_axes {
+            // P-CHAN-00460: couplings outlive the program, as the axes do.
+            return;
+        }
         let numbers: Vec<u16> = channel.groups.iter().map(|group| group.number).collect();
         if channel.restores_after_end {
             channel.restored.clone_from(&numbers);
@@ -358,7 +362,7 @@ impl State {
     fn abort_with_warning(&mut self, index: usize, block: u32) {
         let channel = &mut self.channels[index];
         let (number, place) = (channel.number, Place::Channel(channel.number));
-        let event = self.log.note_plain(place, Why::Raised, channel.causes.program);
+        let event = self.log.note_one(place, Why::Raised, super::inputs::block(block), channel.causes.program);
         let text = Parameter::Text(short_text("M30 in a subroutine"));
         let parameters = [Parameter::Channel(number), Parameter::Number(block.into()), text, Parameter::None];
         self.pending.raise_as(RaisedAlarm { number: messages::NC_CALL, place, parameters }, None, true, event);
@@ -374,8 +378,8 @@ impl State {
             return;
         }
         channel.shown = number;
-        let (place, name) = (Place::Channel(channel.number), block_name(number));
-        channel.causes.block = self.log.note_one(place, Why::BlockRuns, Input::Block(name), channel.causes.started);
+        let (place, block) = (Place::Channel(channel.number), super::inputs::block(number));
+        channel.causes.block = self.log.note_one(place, Why::BlockRuns, block, channel.causes.started);
     }
 
     fn begin_homing(&mut self, index: usize, block: &Block, cause: EventId) -> Outcome {

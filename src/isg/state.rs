@@ -48,6 +48,8 @@ pub(super) enum AxisError {
 /// The events behind the signals of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct AxisCauses {
+    /// The last fault of the mechanics or the drive that began or ended.
+    pub fault: EventId,
     pub drive_enable: EventId,
     pub feed_enable: EventId,
     pub gantry_on: EventId,
@@ -103,6 +105,11 @@ impl Axis {
         self.homed && !self.waits_for_others
     }
 
+    /// A position as it is shown: that of a modulo axis is within its range.
+    pub(super) fn shown(&self, position: Position) -> Position {
+        self.parameters.modulo.map_or(position, |modulo| modulo.shown(position))
+    }
+
     /// Setpoint minus actual value.
     pub(super) fn following_error(&self) -> Position {
         self.setpoint.position - self.actual()
@@ -126,7 +133,7 @@ impl Axis {
 }
 
 /// The window of "in position": 0.1 µm, or 0.0001°.
-const IN_POSITION: Position = Position::new(100);
+pub(super) const IN_POSITION: Position = Position::new(100);
 /// Cycles without movement after which an axis counts as standing.
 const STILL: u32 = 25;
 
@@ -149,6 +156,10 @@ pub(super) struct State {
     /// The parameters in effect, for expressions.
     pub in_effect: Arc<Vec<ParameterValue>>,
     pub power_on: EventId,
+    /// What holds since the start of the controller.
+    pub as_after_start: EventId,
+    /// The parameters that became active and are not recorded yet.
+    pub activated: Vec<(ParameterValue, EventId)>,
     pub plc_missing: EventId,
     /// The encoders have not reported since the start.
     pub starts: bool,

@@ -14,13 +14,12 @@ fn findings(session: &Session) -> Vec<CauseFinding> {
 }
 
 /// Scenarios with causes that are not correct yet: start by another channel, orders of the PLC and handwheel overrides that end, requests of
-/// values on the 828D, the control of the ISG kernel.
-const NOT_YET: [&str; 8] = [
+/// values on the 828D.
+const NOT_YET: [&str; 7] = [
     "golden/channels/wait_directly_behind_start",
     "golden/exchange/positioning_by_handwheel",
     "golden/exchange/positioning_refused",
     "golden/exchange/waitp_and_command_axes",
-    "golden/isg_",
     "golden/overlay/handwheel_override",
     "golden/profile_828d/axis_values",
     "golden/spindle/by_plc",

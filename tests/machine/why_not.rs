@@ -126,16 +126,14 @@ fn follow(mut machine: Machine, mut operator: Operator, scenario: String, delay:
 }
 
 /// Scenarios whose conditions are not complete yet: REF while a program is stopped, handwheel override, spindles of the PLC, a key
-/// that waits for the enables of a grouping. The control of the
-/// ISG kernel has no conditions.
-const NOT_YET: [&str; 7] = [
+/// that waits for the enables of a grouping.
+const NOT_YET: [&str; 6] = [
     "golden/channels/reference_while_a_program_is_stopped",
     "golden/overlay/handwheel_override",
     "golden/exchange/positioning_by_handwheel",
     "golden/spindle/by_plc",
     "golden/operation/grouping_waits_for_all_enables",
     "golden/referencing/press_before_the_enables",
-    "golden/isg_",
 ];
 
 #[test]
