@@ -428,6 +428,9 @@ pub trait Texts: Sync {
 
     /// Its state machines as charts.
     fn charts(&self) -> Vec<Chart>;
+
+    /// The ending in the names of its programs, with a dot; none if it has kinds of programs (`.MPF`, `.SPF`).
+    fn program_ending(&self) -> &'static str;
 }
 
 /// A machine datum of a control.

@@ -114,6 +114,8 @@ pub struct AxisHints {
     pub exists: bool,
     /// The direction of its reference cam, as a sign; 0 without a cam.
     pub cam_direction: i8,
+    /// A reference cam that the plant does not define lies at a fixed place, between two zero marks; otherwise 100 mm from the start.
+    pub cam_is_fixed: bool,
     /// Distance between two zero marks, of encoder 1 and 2.
     pub zero_mark_spacing: [Position; 2],
     /// The types of both encoders, for those without a type in the plant.

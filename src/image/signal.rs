@@ -79,14 +79,6 @@ pub struct Signal {
     pub doc: &'static str,
 }
 
-impl Signal {
-    /// The signal under another name, for names that are no identifiers: `gantry_on.enable_w`.
-    #[must_use]
-    pub const fn named(self, name: &'static str) -> Self {
-        Self { name, ..self }
-    }
-}
-
 /// A control unit: a name that stands for several signals of one block. Written, it is `enable` = 1 and the command; read, it is the state.
 #[derive(Debug)]
 pub struct Unit {

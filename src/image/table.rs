@@ -6,6 +6,8 @@
 //! `pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 29;`. The module contains one [`Signal`] per row, with the name of its getter:
 //! `axis_to_nck::controller_enable.byte` is 2, also in constants.
 //!
+//! A name that is no identifier stands behind the getter: `bool, gantry_on_enable as "gantry_on.enable_w", set_gantry_on_enable: 0, 4;`.
+//!
 //! A bit row has the form `bool, getter, setter: byte, bit;`, a group of bits has the form `u8, getter, setter: byte, high to low;`. A
 //! number of several bytes is never a bit row: it is in the block `numbers` at the end of the run, and is read and written big-endian (most
 //! significant byte first) as in STEP 7.
@@ -21,11 +23,11 @@ macro_rules! signals {
         pub struct $name:ident, $constants:ident: $block:ident, $writer:ident, $first:literal to $last:literal;
         $(
             $(#[doc = $doc:literal])+
-            $kind:ident, $get:ident, $set:ident: $byte:literal, $high:literal $(to $low:literal)?;
+            $kind:ident, $get:ident $(as $shown:literal)?, $set:ident: $byte:literal, $high:literal $(to $low:literal)?;
         )*
         $(numbers {$(
             $(#[doc = $number_doc:literal])+
-            $number:ident, $number_get:ident, $number_set:ident: $number_byte:literal;
+            $number:ident, $number_get:ident $(as $number_shown:literal)?, $number_set:ident: $number_byte:literal;
         )*})?
     ) => {
         bitfield::bitfield! {
@@ -83,7 +85,7 @@ macro_rules! signals {
                 $(#[doc = $doc])+
                 #[doc = concat!("\n\nByte ", $byte, ", bit ", $high $(, " to ", $low)?, ".")]
                 pub const $get: Signal = $crate::image::table::bits(
-                    stringify!($get), Block::$block, Writer::$writer, stringify!($kind), $byte, &[$high $(, $low)?],
+                    $crate::image::table::name(stringify!($get), &[$($shown)?]), Block::$block, Writer::$writer, stringify!($kind), $byte, &[$high $(, $low)?],
                     concat!($($doc),+),
                 );
             )*
@@ -91,7 +93,7 @@ macro_rules! signals {
                 $(#[doc = $number_doc])+
                 #[doc = concat!("\n\nFrom byte ", $number_byte, ", big-endian.")]
                 pub const $number_get: Signal = $crate::image::table::number(
-                    stringify!($number_get), Block::$block, Writer::$writer, stringify!($number), $number_byte,
+                    $crate::image::table::name(stringify!($number_get), &[$($number_shown)?]), Block::$block, Writer::$writer, stringify!($number), $number_byte,
                     concat!($($number_doc),+),
                 );
             )*)?
@@ -141,11 +143,11 @@ macro_rules! accessors {
         pub struct $name:ident, $constants:ident: $block:ident, $writer:ident, $first:literal to $last:literal;
         $(
             $(#[doc = $doc:literal])+
-            $kind:ident, $get:ident, $set:ident: $byte:literal, $high:literal $(to $low:literal)?;
+            $kind:ident, $get:ident $(as $shown:literal)?, $set:ident: $byte:literal, $high:literal $(to $low:literal)?;
         )*
         $(numbers {$(
             $(#[doc = $number_doc:literal])+
-            $number:ident, $number_get:ident, $number_set:ident: $number_byte:literal;
+            $number:ident, $number_get:ident $(as $number_shown:literal)?, $number_set:ident: $number_byte:literal;
         )*})?
     ) => {
         impl $crate::image::table::Accessors for $name {
@@ -166,6 +168,13 @@ macro_rules! accessors {
 }
 #[cfg(test)]
 pub(super) use accessors;
+
+/// The name of a signal: that of its getter, or the one that its row gives.
+#[doc(hidden)]
+#[must_use]
+pub const fn name(getter: &'static str, shown: &[&'static str]) -> &'static str {
+    if let [shown] = shown { shown } else { getter }
+}
 
 /// The catalogue entry of a bit row.
 #[doc(hidden)]

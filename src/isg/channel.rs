@@ -31,11 +31,13 @@ pub(super) struct Inputs {
     pub single_block: bool,
     /// In 0.1 %.
     pub feed_override: u16,
+    /// The skip levels, a bit each.
+    pub skipped: u32,
 }
 
 impl Default for Inputs {
     fn default() -> Self {
-        Self { start: false, reset: false, feed_hold: false, single_block: false, feed_override: 1000 }
+        Self { start: false, reset: false, feed_hold: false, single_block: false, feed_override: 1000, skipped: 0 }
     }
 }
 
@@ -68,7 +70,13 @@ pub(super) struct ChannelCauses {
     pub program: EventId,
     pub error: EventId,
     pub block: EventId,
+    /// The NC start that the present block needed.
+    pub started: EventId,
+    /// The program stands, or goes on.
+    pub stands: EventId,
+    pub selected: EventId,
     pub feed_override: EventId,
+    pub skipped: EventId,
     pub reset: EventId,
 }
 
@@ -81,7 +89,7 @@ pub(super) struct Modal {
     pub absolute: bool,
     /// G17 to G19.
     pub plane: u16,
-    /// As it is programmed.
+    /// In mm/min.
     pub feed: f64,
     /// G41 or G42.
     pub compensation: bool,
@@ -134,7 +142,7 @@ pub(super) struct Channel {
     /// The block that runs without the path.
     pub shown: u32,
     pub modal: Modal,
-    /// Initial feed (P-CHAN-00099), and the unit of F in mm/min (P-CHAN-00108 / 100).
+    /// Initial feed in mm/min (P-CHAN-00099), and the unit of F in mm/min (P-CHAN-00108).
     pub first_feed: f64,
     pub feed_unit: f64,
     /// Axes in manual mode (G201).

@@ -5,14 +5,16 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::hli::{HLI, ToCnc, axis_to_cnc};
+use super::inputs::axis_signal;
 use super::lists::{Code, Lists, Message};
 use super::pending::of_axis;
 use super::rules::Why;
-use super::state::{Axis, AxisError, State, Units};
+use super::state::{Axis, AxisCauses, AxisError, State, Units};
 use super::texts::TEXTS;
 use super::{gantry, messages};
 use crate::control::{
-    Activated, Changes, Control, ControlCommand, ControlSide, CycleTimes, Data, PlcSide, Taken, Texts, Value,
+    Activated, Changes, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, PlcSide, Question, Taken,
+    Texts, Value,
 };
 use crate::image::{Names, OverrideCoding, Signal, View};
 use crate::motion::{Feedback, Setpoint};
@@ -20,7 +22,8 @@ use crate::nc_program::Program;
 use crate::source::{Place as FilePlace, Problem};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
 use crate::variables::{
-    AlarmNumber, EventId, Events, FaultName, Input, Parameter, Place, RaisedAlarm, SignalBit, Variables, short_text,
+    AlarmNumber, DatumValue, EventId, Events, FaultName, Input, Parameter, ParameterValue, Place, RaisedAlarm,
+    Variables, short_text,
 };
 
 /// A control of the ISG kernel.
@@ -32,24 +35,33 @@ impl State {
     pub(super) fn restart(&mut self) {
         let event = self.log.note_plain(Place::Nck, Why::PowerOn, EventId::NONE);
         self.power_on = event;
+        self.as_after_start = self.log.note_plain(Place::Nck, Why::AsAfterStart, event);
         self.plc_missing = EventId::NONE;
-        self.pending.restart(event);
+        self.pending.restart(self.as_after_start);
         let started = self.lists.start();
         for (_, axis) in self.axes.iter_mut() {
-            *axis = Axis { feedback: axis.feedback, ..Axis::default() };
+            let causes = AxisCauses { fault: axis.causes.fault, ..AxisCauses::default() };
+            *axis = Axis { feedback: axis.feedback, causes, ..Axis::default() };
         }
-        self.adopt(&started, true);
+        self.adopt(&started, true, event);
         for (_, axis) in self.axes.iter_mut().filter(|(_, axis)| axis.exists) {
             axis.units = Units { drive_enable: true, feed_enable: true, gantry_on: false };
         }
         self.combinations = gantry::combinations(&self.axes, event);
-        let coupled: Vec<AxisNumber> = self.combinations.iter().flat_map(|one| one.coupling.members()).collect();
-        for axis in coupled {
-            self.axes[axis].causes.coupled = self.log.note_plain(Place::Axis(axis), Why::CoupledByList, event);
+        for one in &self.combinations {
+            let leader = one.coupling.leader();
+            for member in one.coupling.members() {
+                // The slaves name their master; the first of them couples it.
+                let slave = if member == leader { one.coupling.followers().next() } else { Some(member) };
+                let master = f64::from(self.axes[leader].parameters.number);
+                let input = slave.map_or(Input::None, |slave| Input::Datum(70, Some(slave), master));
+                self.axes[member].causes.coupled =
+                    self.log.note_one(Place::Axis(member), Why::CoupledByList, input, event);
+            }
         }
         self.starts = true;
         for message in &started.messages {
-            self.raise_at_start(message);
+            self.raise_at_start(message, event);
         }
     }
 
@@ -67,8 +79,8 @@ impl State {
         self.start_couplings();
     }
 
-    /// A message of the start-up checks.
-    pub(super) fn raise_at_start(&mut self, message: &Message) {
+    /// A message of the start-up checks, at the start or because of an event later.
+    pub(super) fn raise_at_start(&mut self, message: &Message, cause: EventId) {
         let number = match message.code {
             Code::Number(number) => AlarmNumber(number),
             Code::Parameter(number) => messages::of_parameter(number),
@@ -77,7 +89,7 @@ impl State {
         let other = message.other_axis.and_then(|axis| self.axis_of(axis));
         let channel = message.channel.and_then(|channel| ChannelNumber::new(u8::try_from(channel).ok()?));
         let place = axis.map(Place::Axis).or_else(|| channel.map(Place::Channel)).unwrap_or(Place::Nck);
-        let event = self.log.note_plain(place, Why::StartUpCheck, self.power_on);
+        let event = self.log.note_plain(place, Why::StartUpCheck, cause);
         // About a channel: channel, entry, axis, as at run time channel, block, axis. About an axis: axis, other axis, entry.
         let entry = Parameter::Text(short_text(&place_of(message)));
         let [axis, second] = [axis, other].map(|axis| axis.map_or(Parameter::None, Parameter::Axis));
@@ -99,24 +111,24 @@ impl State {
             gantry_on: unit(to_cnc.gantry_on_enable(), to_cnc.gantry_on_command(), false),
         };
         self.axes[number].units = now;
-        let note = |state: &mut Self, changed: bool, signal: Signal, value: bool, enable: bool| -> Option<EventId> {
-            let bit = SignalBit { place: Place::Axis(number), byte: signal.byte, bit: signal.bit };
-            let why = if enable { Why::Commanded } else { Why::Request };
-            changed.then(|| state.log.note_one(Place::Axis(number), why, Input::Bit(bit, value), EventId::NONE))
+        let mut note = |unit: [Signal; 2], enable: bool, command: bool| -> EventId {
+            let [enabled, commanded] = [(unit[0], enable), (unit[1], command)].map(|(s, v)| axis_signal(number, s, v));
+            // The command is read only while the PLC gives it.
+            let (why, second) = if enable { (Why::Commanded, commanded) } else { (Why::Request, Input::None) };
+            self.log.note(Place::Axis(number), why, [enabled, second, Input::None], EventId::NONE)
         };
-        let (drive, feed, gantry) =
-            (axis_to_cnc::drive_enable_command, axis_to_cnc::feed_enable_command, axis_to_cnc::gantry_on_command);
-        let changed = before.drive_enable != now.drive_enable;
-        if let Some(event) = note(self, changed, drive, to_cnc.drive_enable_command(), to_cnc.drive_enable_enable()) {
-            self.axes[number].causes.drive_enable = event;
+        let causes = &mut self.axes[number].causes;
+        if before.drive_enable != now.drive_enable {
+            let unit = [axis_to_cnc::drive_enable_enable, axis_to_cnc::drive_enable_command];
+            causes.drive_enable = note(unit, to_cnc.drive_enable_enable(), to_cnc.drive_enable_command());
         }
-        let changed = before.feed_enable != now.feed_enable;
-        if let Some(event) = note(self, changed, feed, to_cnc.feed_enable_command(), to_cnc.feed_enable_enable()) {
-            self.axes[number].causes.feed_enable = event;
+        if before.feed_enable != now.feed_enable {
+            let unit = [axis_to_cnc::feed_enable_enable, axis_to_cnc::feed_enable_command];
+            causes.feed_enable = note(unit, to_cnc.feed_enable_enable(), to_cnc.feed_enable_command());
         }
-        let changed = before.gantry_on != now.gantry_on;
-        if let Some(event) = note(self, changed, gantry, to_cnc.gantry_on_command(), to_cnc.gantry_on_enable()) {
-            self.axes[number].causes.gantry_on = event;
+        if before.gantry_on != now.gantry_on {
+            let unit = [axis_to_cnc::gantry_on_enable, axis_to_cnc::gantry_on_command];
+            causes.gantry_on = note(unit, to_cnc.gantry_on_enable(), to_cnc.gantry_on_command());
         }
         now.gantry_on && !before.gantry_on
     }
@@ -135,7 +147,7 @@ impl State {
                 // An intelligent drive leaves its reaction to the CNC if the list says so; it brakes by itself otherwise.
                 axis.fault_stop = axis.parameters.stops_controlled && self.intelligent.contains(number);
                 let input = Input::Fault(FaultName::DriveFault);
-                let event = self.log.note_one(Place::Axis(number), Why::DriveFault, input, axis.causes.ready);
+                let event = self.log.note_one(Place::Axis(number), Why::DriveFault, input, axis.causes.fault);
                 axis.causes.ready = event;
                 self.pending.raise(of_axis(messages::DRIVE_FAULT, number), None, event);
                 let stop = self.log.note_plain(Place::Axis(number), Why::CombinationStops, event);
@@ -159,7 +171,7 @@ impl State {
         self.watch_drives();
         for index in 0..self.channels.len() {
             let bits = to_cnc.channels[self.channels[index].number];
-            self.read_channel(index, &bits);
+            self.read_channel(index, &bits, &to_cnc.skips[self.channels[index].number]);
             self.step_channel(index);
         }
         self.realign();
@@ -174,10 +186,10 @@ impl State {
         let before = self.lists.update().messages;
         if self.lists.set(target, value, &FilePlace::file("scenario")).is_ok() {
             let started = self.lists.update();
-            self.adopt(&started, false);
+            self.adopt(&started, false, event);
             self.adopt_offsets();
             for message in started.messages.iter().filter(|message| !before.contains(message)) {
-                self.raise_at_start(message);
+                self.raise_at_start(message, event);
             }
         }
         event
@@ -220,10 +232,13 @@ impl Control for Cnc {
             ControlCommand::Store { target, value } => state.update(target, value),
             ControlCommand::SelectProgram { channel, path } => {
                 // A program that runs is not changed by it: the next start takes the new one.
-                if let Some(channel) = state.channels.iter_mut().find(|one| one.number == *channel) {
-                    channel.selected = Some(path.clone());
-                }
-                EventId::NONE
+                let Some(one) = state.channels.iter_mut().find(|one| one.number == *channel) else {
+                    return EventId::NONE;
+                };
+                one.selected = Some(path.clone());
+                one.causes.selected =
+                    state.log.note_plain(Place::Channel(*channel), Why::ProgramSelected, EventId::NONE);
+                one.causes.selected
             }
             ControlCommand::PlcMissing => {
                 if !state.plc_missing.is_some() {
@@ -235,18 +250,32 @@ impl Control for Cnc {
                 state.plc_missing = EventId::NONE;
                 EventId::NONE
             }
-            ControlCommand::Fault { axis, name, begins, .. } => {
+            ControlCommand::Fault { axis, name, begins, affected } => {
+                let why = if *begins { Why::FaultBegins } else { Why::FaultEnds };
+                let event = state.log.note_one(Place::Axis(*axis), why, Input::Fault(*name), EventId::NONE);
+                for number in affected.iter() {
+                    state.axes[number].causes.fault = event;
+                }
                 if *begins && *name == FaultName::MovedByHand {
                     state.axes[*axis].tracks_once = true;
                 }
-                EventId::NONE
+                event
             }
             _ => EventId::NONE,
         }
     }
 
     fn take_activated(&mut self) -> Vec<Activated> {
-        Vec::new()
+        let activated = |(of, event): (ParameterValue, EventId)| {
+            let index = match of.index {
+                [0, 0] => None,
+                [first, 0] => u8::try_from(first).ok(),
+                [_, second] => u8::try_from(second).ok(),
+            };
+            let value = of.word.is_none().then_some(of.value);
+            Activated { datum: DatumValue { number: of.number, place: of.place, index, value }, event }
+        };
+        self.0.activated.drain(..).map(activated).collect()
     }
 
     fn decide(&mut self, plc: PlcSide<'_>, _: Changes) {
@@ -296,11 +325,11 @@ impl Control for Cnc {
     }
 
     fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
-        match place {
-            Place::Axis(axis) => self.0.axis_cause(axis, byte, bit),
-            Place::Channel(channel) => self.0.channel_cause(channel, byte, bit),
-            Place::Nck | Place::ModeGroup(_) => self.0.power_on,
-        }
+        self.0.signal_cause(place, byte, bit)
+    }
+
+    fn conditions(&self, question: &Question<'_>, _: PlcSide<'_>) -> Option<Condition> {
+        self.0.conditions(question)
     }
 
     fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId {
@@ -395,6 +424,8 @@ impl Cnc {
     /// A control that starts with these lists.
     pub(super) fn new(lists: Lists, cycle: crate::units::Time, lenient: bool, intelligent: AxisSet) -> Self {
         let mut state = Box::new(State::new(lists, cycle, lenient, intelligent));
+        // What holds after the start shows in the first cycle of a machine.
+        state.log.begin(1);
         state.restart();
         Self(state)
     }

@@ -9,7 +9,7 @@ use super::cnc::Cnc;
 use super::hli::HLI;
 use super::language::{AxisReference, Form, Pair};
 use super::lists::{self, AxisKind, Lists, OnMode, Started};
-use super::parameters::{AxisParameters, Clearing, Homing, acceleration, length, velocity};
+use super::parameters::{AxisParameters, Clearing, Homing, Modulo, acceleration, length, velocity};
 use super::state::{Axis, Cycle, State};
 use crate::control::{
     AxisHints, Class, Configuration, EncoderModel, Examined, Finding, Log, Opened, Settings, Site, StoredDatum, Value,
@@ -205,6 +205,8 @@ impl Configuration for ParameterLists {
                     Homing { direction, .. } if direction < 0.0 => -1,
                     Homing { .. } => 1,
                 },
+                // A master and its slaves that start a little apart home at the same zero mark.
+                cam_is_fixed: true,
                 zero_mark_spacing: [Position::from_user(10.0); 2],
                 encoders: [EncoderModel::Incremental; 2],
                 ..AxisHints::default()
@@ -242,13 +244,15 @@ impl State {
             pending: super::pending::Pending::default(),
             in_effect: std::sync::Arc::default(),
             power_on: EventId::NONE,
+            as_after_start: EventId::NONE,
+            activated: Vec::new(),
             plc_missing: EventId::NONE,
             starts: false,
         }
     }
 
     /// Takes the values in effect. At a start the channels begin anew; an update at run time changes parameters alone.
-    pub(super) fn adopt(&mut self, started: &Started, starts: bool) {
+    pub(super) fn adopt(&mut self, started: &Started, starts: bool, cause: EventId) {
         let places = places(started);
         for axis in &started.axes {
             let Some(place) = places.get(&axis.number).copied() else { continue };
@@ -257,7 +261,22 @@ impl State {
             state.exists = true;
             state.parameters = parameters(axis, master);
         }
-        self.in_effect = std::sync::Arc::new(in_effect(started, &places));
+        let now = in_effect(started, &places);
+        let is_other = |value: &&ParameterValue| {
+            let key = (value.number, value.index, value.place);
+            let before = self.in_effect.iter().find(|before| (before.number, before.index, before.place) == key);
+            before.is_some_and(|before| before != *value)
+        };
+        let activated: Vec<ParameterValue> = now.iter().filter(is_other).copied().collect();
+        for value in activated {
+            let axis = match value.place {
+                Place::Axis(axis) => Some(axis),
+                Place::Nck | Place::ModeGroup(_) | Place::Channel(_) => None,
+            };
+            self.log.activated(value.number, axis, cause);
+            self.activated.push((value, cause));
+        }
+        self.in_effect = std::sync::Arc::new(now);
         if starts {
             let selected: Vec<Option<String>> = self.channels.iter().map(|channel| channel.selected.clone()).collect();
             self.channels = started.channels.iter().filter_map(|channel| made(channel, &places)).collect();
@@ -270,7 +289,7 @@ impl State {
             channel.restores_after_end = list.preserve_after_program_end;
             channel.retains_axes = list.retain_last_configuration;
             channel.first_feed = list.default_feed;
-            channel.feed_unit = list.feedrate_factor / 100.0;
+            channel.feed_unit = if list.is_feed_in_m_per_minute { 1000.0 } else { 1.0 };
         }
     }
 
@@ -339,6 +358,10 @@ fn parameters(axis: &lists::Axis, master: Option<AxisNumber>) -> AxisParameters 
         kind: u16::try_from(number("P-AXIS-00018")).unwrap_or(0),
         mode: number("P-AXIS-00015"),
         is_rotary: axis.kind != AxisKind::Linear,
+        modulo: axis.is_modulo.then(|| {
+            let [lower, upper] = axis.modulo_range.map(|limit| length(limit.into()));
+            Modulo { lower, upper }
+        }),
         is_master: axis.is_master,
         is_slave: axis.is_slave,
         master,

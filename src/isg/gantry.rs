@@ -1,8 +1,10 @@
 //! The hard gantry: combinations of a master and its slaves by parameter list (HG-01 to HG-29), as a policy over the coupling engine.
 
 use super::combination::{Combination, POLICY};
+use super::groups::Group;
+use super::language::Form;
 use super::messages;
-use super::parameters::{AxisParameters, Clearing};
+use super::parameters::{AxisParameters, Clearing, tenths};
 use super::pending::of_axis;
 use super::phases::GantryPhase;
 use super::rules::Why;
@@ -128,6 +130,7 @@ impl State {
             let moves = Moves::Only(begins.iter().copied().collect());
             one.coupling.begin_realignment(Realign { moves, target: Target::LeaderSetpoint }, &view);
             for slave in begins {
+                axes[slave].causes.motion = one.cause;
                 if axes[slave].parameters.clearing == Clearing::Edge {
                     axes[slave].clears = false;
                 }
@@ -154,7 +157,8 @@ impl State {
             if let Progress::Done(_) = realigning.progress {
                 for CouplingEvent { follower, difference, .. } in realigning.events {
                     let input = Input::Length(Quantity::SynchronismDifference, follower, difference);
-                    let event = log.note_one(Place::Axis(follower), Why::ClearingEnds, input, EventId::NONE);
+                    let begun = axes[follower].causes.motion;
+                    let event = log.note_one(Place::Axis(follower), Why::ClearingEnds, input, begun);
                     axes[follower].causes.motion = event;
                 }
             }
@@ -170,7 +174,7 @@ impl State {
             let leader = one.coupling.leader();
             one.coupling.set_limits(|slave| {
                 let parameters = &axes[slave].parameters;
-                let is_homed = axes[slave].homed && axes[leader].homed;
+                let is_homed = axes[slave].has_reference() && axes[leader].has_reference();
                 parameters.limits.filter(|_| parameters.is_monitored(is_homed))
             });
             one.coupling.compare(&AxesView(axes), &mut events);
@@ -207,10 +211,43 @@ impl State {
         if self.axes[slave].error >= Some(error) {
             return;
         }
-        let input = Input::Length(Quantity::SynchronismDifference, slave, event.difference);
-        let cause = self.log.note_one(Place::Axis(slave), why, input, EventId::NONE);
+        let is_by_list = !is_soft || self.is_limited_by_list(slave);
+        let mut inputs = self.beyond(slave, event.difference, is_locked);
+        if !is_by_list {
+            inputs[1] = Input::None;
+        }
+        let causes = self.axes[slave].causes;
+        let cause = self.log.note(Place::Axis(slave), why, inputs, causes.motion.max(causes.fault));
         self.pending.raise(of_axis(number, slave), None, cause);
         self.axis_error(slave, error, cause);
+    }
+
+    /// Whether the limits of a slave in a coupling group are those of its list: the pair prints none.
+    fn is_limited_by_list(&self, slave: AxisNumber) -> bool {
+        self.channels.iter().any(|channel| {
+            let is_of_slave = |group: &&Group| {
+                group.couplings.iter().any(|coupling| coupling.followers().any(|follower| follower == slave))
+            };
+            let definitions =
+                channel.groups.iter().filter(is_of_slave).filter_map(|group| channel.definitions.get(&group.number));
+            definitions.flatten().any(|pair| {
+                self.referenced(channel, &pair.slave) == Some(slave)
+                    && matches!(pair.form, Form::Gantry { limits: None })
+            })
+        })
+    }
+
+    /// A difference beyond a limit of the list, as the inputs of a cause.
+    pub(super) fn beyond(&self, slave: AxisNumber, difference: Position, is_locked: bool) -> [Input; 3] {
+        let measured = Input::Length(Quantity::SynchronismDifference, slave, difference);
+        let limits = self.axes[slave].parameters.limits;
+        let limit = match (limits, is_locked) {
+            (Some(limits), true) => Some((71, limits.second)),
+            (Some(limits), false) => limits.first.map(|first| (72, first)),
+            (None, _) => None,
+        };
+        let datum = limit.map(|(number, at)| Input::Datum(number, Some(slave), tenths(at)));
+        [measured, datum.unwrap_or(Input::None), Input::None]
     }
 
     /// An axis has an error: no axis of its combination stops alone (HG-13), and the program of its channel ends.

@@ -7,7 +7,7 @@ use super::messages;
 use super::program::{Outcome, unknown, value};
 use super::state::State;
 use crate::motion::path::{Circle, Feed, PATH_AXES, PathBlock, Refused as PathRefused, Turn, Way};
-use crate::units::Position;
+use crate::units::{AxisNumber, Position};
 
 /// How far the radii at start and end of an arc may differ: 0.01 mm.
 const RADII: f64 = 10_000.0;
@@ -18,7 +18,9 @@ impl State {
     /// Appends the movement of a block to the path.
     pub(super) fn append_motion(&mut self, index: usize, block: &Block, modal: &Modal) -> Outcome {
         if self.channels[index].has_moved() {
-            self.place_path(index);
+            let named: Vec<AxisNumber> =
+                block.axes.iter().filter_map(|(name, _)| self.channels[index].axis_named(name)).collect();
+            self.place_path(index, &named);
             let position = self.channels[index].path.as_ref().map(|path| path.position());
             self.channels[index].end = position.unwrap_or_default();
         }
@@ -30,10 +32,16 @@ impl State {
             if channel.is_slave(axis) {
                 return Err(Refused::axis(messages::LINK_SLAVE_PROGRAMMED, axis));
             }
+            // A block whose axes the path does not have waits until it stands, and is then placed anew.
             let place = channel.path_axes.iter().position(|other| *other == axis);
-            let place = place.ok_or_else(|| value(&format!("{name} is beyond {PATH_AXES} axes")))?;
+            let place = place.ok_or_else(|| value(&format!("more than {PATH_AXES} axes")))?;
             let way = word * Position::PER_USER_UNIT;
-            end[place] = if modal.absolute { way } else { start[place] + way };
+            let sign = block.signs.iter().find(|(other, _)| other == name).map(|(_, sign)| *sign);
+            end[place] = match (modal.absolute, self.axes[axis].parameters.modulo) {
+                (false, _) => start[place] + way,
+                (true, None) => way,
+                (true, Some(modulo)) => modulo.target(start[place], way, sign),
+            };
             if !end[place].is_finite() || end[place].abs() > FARTHEST {
                 return Err(value(&format!("{name} is too far")));
             }
@@ -45,7 +53,7 @@ impl State {
         let feed = if modal.motion == 0 {
             Feed::Rapid
         } else {
-            let feed = modal.feed * channel.feed_unit * Position::PER_USER_UNIT / 60.0;
+            let feed = modal.feed * Position::PER_USER_UNIT / 60.0;
             if feed <= 0.0 {
                 return Err(value("no feed"));
             }

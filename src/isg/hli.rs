@@ -9,7 +9,7 @@
 
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
-use crate::image::{Block, BlockTable, ByteRange, Interface, Layout, Numbering, Part, Signal, Tables, Unit, Window};
+use crate::image::{Block, BlockTable, ByteRange, Interface, Layout, Numbering, Part, Tables, Unit, Window};
 use crate::signals;
 use crate::units::{PerAxis, PerChannel};
 
@@ -26,11 +26,13 @@ signals! {
     /// Single block: 1 = the program is held after each block.
     bool, single_block, set_single_block: 0, 3;
     /// Feed override, enable: 1 = the PLC gives the override.
-    bool, feed_override_enable, set_feed_override_enable: 0, 4;
+    bool, feed_override_enable as "feed_override.enable_w", set_feed_override_enable: 0, 4;
+    /// Skip mode, enable: 1 = the PLC gives the skip levels.
+    bool, program_block_ignore_enable as "program_block_ignore.enable_w", set_program_block_ignore_enable: 0, 5;
 
     numbers {
         /// Feed override, command, in 0.1 %: 1000 = 100 %.
-        u16, feed_override_command, set_feed_override_command: 2;
+        u16, feed_override_command as "feed_override.command_w", set_feed_override_command: 2;
     }
 }
 
@@ -49,11 +51,33 @@ signals! {
 
     numbers {
         /// Feed override, request, in 0.1 %: the CNC wants 1000 = 100 %.
-        u16, feed_override_request, set_feed_override_request: 6;
+        u16, feed_override_request as "feed_override.request_r", set_feed_override_request: 6;
         /// Feed override that acts, in 0.1 %.
-        u16, feed_override_state, set_feed_override_state: 8;
+        u16, feed_override_state as "feed_override.state_r", set_feed_override_state: 8;
         /// The block that runs: its N number, without one its line; 0 = none.
         u32, block, set_block: 10;
+    }
+}
+
+signals! {
+    /// DB801 and following, bytes 14 to 17: skip levels of a channel.
+    pub struct ChannelSkipToCnc, channel_skip_to_cnc: Channel, Plc, 14 to 17;
+
+    numbers {
+        /// Skip mode, command: a bit for each level that is skipped, 0x1 for `/` and `/1`, 0x200 for `/10`.
+        u32, program_block_ignore_command as "program_block_ignore.command_w", set_program_block_ignore_command: 14;
+    }
+}
+
+signals! {
+    /// DB801 and following, bytes 18 to 25: skip levels of a channel.
+    pub struct ChannelSkipFromCnc, channel_skip_from_cnc: Channel, Nck, 18 to 25;
+
+    numbers {
+        /// Skip mode, request: the levels that the CNC wants to skip without the PLC; always 0.
+        u32, program_block_ignore_request as "program_block_ignore.request_r", set_program_block_ignore_request: 18;
+        /// Skip levels that act.
+        u32, program_block_ignore_state as "program_block_ignore.state_r", set_program_block_ignore_state: 22;
     }
 }
 
@@ -62,17 +86,17 @@ signals! {
     pub struct AxisToCnc, axis_to_cnc: Axis, Plc, 0 to 0;
 
     /// Drive on, torque and position control, enable: 1 = the PLC gives the enable of the drive.
-    bool, drive_enable_enable, set_drive_enable_enable: 0, 0;
+    bool, drive_enable_enable as "drive_enable.enable_w", set_drive_enable_enable: 0, 0;
     /// Drive on, torque and position control, command: 1 = on.
-    bool, drive_enable_command, set_drive_enable_command: 0, 1;
+    bool, drive_enable_command as "drive_enable.command_w", set_drive_enable_command: 0, 1;
     /// Feed enable, enable: 1 = the PLC gives the feed enable.
-    bool, feed_enable_enable, set_feed_enable_enable: 0, 2;
+    bool, feed_enable_enable as "feed_enable.enable_w", set_feed_enable_enable: 0, 2;
     /// Feed enable, command: 1 = the axis may move.
-    bool, feed_enable_command, set_feed_enable_command: 0, 3;
+    bool, feed_enable_command as "feed_enable.command_w", set_feed_enable_command: 0, 3;
     /// Clearing of the gantry difference, enable: 1 = the PLC gives the command.
-    bool, gantry_on_enable, set_gantry_on_enable: 0, 4;
+    bool, gantry_on_enable as "gantry_on.enable_w", set_gantry_on_enable: 0, 4;
     /// Clearing of the gantry difference, command: 1 = clear it.
-    bool, gantry_on_command, set_gantry_on_command: 0, 5;
+    bool, gantry_on_command as "gantry_on.command_w", set_gantry_on_command: 0, 5;
 }
 
 signals! {
@@ -80,17 +104,17 @@ signals! {
     pub struct AxisFromCnc, axis_from_cnc: Axis, Nck, 2 to 9;
 
     /// Drive enable, request: 1 = the CNC wants it.
-    bool, drive_enable_request, set_drive_enable_request: 2, 0;
+    bool, drive_enable_request as "drive_enable.request_r", set_drive_enable_request: 2, 0;
     /// Drive enable that acts: 1 = enabled.
-    bool, drive_enable_state, set_drive_enable_state: 2, 1;
+    bool, drive_enable_state as "drive_enable.state_r", set_drive_enable_state: 2, 1;
     /// Feed enable, request: 1 = the CNC wants it.
-    bool, feed_enable_request, set_feed_enable_request: 2, 2;
+    bool, feed_enable_request as "feed_enable.request_r", set_feed_enable_request: 2, 2;
     /// Feed enable that acts: 1 = enabled.
-    bool, feed_enable_state, set_feed_enable_state: 2, 3;
+    bool, feed_enable_state as "feed_enable.state_r", set_feed_enable_state: 2, 3;
     /// Clearing of the gantry difference, request: 1 = the CNC wants it; always 0.
-    bool, gantry_on_request, set_gantry_on_request: 2, 4;
+    bool, gantry_on_request as "gantry_on.request_r", set_gantry_on_request: 2, 4;
     /// Clearing of the gantry difference that acts: 1 = commanded.
-    bool, gantry_on_state, set_gantry_on_state: 2, 5;
+    bool, gantry_on_state as "gantry_on.state_r", set_gantry_on_state: 2, 5;
     /// Drive ready: 1 = the drive has started up and has no fault.
     bool, drive_ready, set_drive_ready: 3, 0;
     /// Homed: 1 = the position refers to the zero point of the machine.
@@ -126,6 +150,8 @@ signals! {
 pub struct ToCnc {
     /// DB801 to DB810.
     pub channels: PerChannel<ChannelToCnc>,
+    /// DB801 to DB810, from byte 14.
+    pub skips: PerChannel<ChannelSkipToCnc>,
     /// DB901 to DB932.
     pub axes: PerAxis<AxisToCnc>,
     /// Byte 1 of each axis.
@@ -138,54 +164,11 @@ pub struct ToCnc {
 pub struct FromCnc {
     /// DB801 to DB810.
     pub channels: PerChannel<ChannelFromCnc>,
+    /// DB801 to DB810, from byte 18.
+    pub skips: PerChannel<ChannelSkipFromCnc>,
     /// DB901 to DB932.
     pub axes: PerAxis<AxisFromCnc>,
 }
-
-/// The signals of a channel, with the names of the HLI.
-static CHANNEL: &[Signal] = &[
-    channel_to_cnc::start,
-    channel_to_cnc::reset,
-    channel_to_cnc::feed_hold,
-    channel_to_cnc::single_block,
-    channel_to_cnc::feed_override_enable.named("feed_override.enable_w"),
-    channel_to_cnc::feed_override_command.named("feed_override.command_w"),
-    channel_from_cnc::program_active,
-    channel_from_cnc::program_completed,
-    channel_from_cnc::error,
-    channel_from_cnc::state,
-    channel_from_cnc::feed_override_request.named("feed_override.request_r"),
-    channel_from_cnc::feed_override_state.named("feed_override.state_r"),
-    channel_from_cnc::block,
-];
-
-/// The signals of an axis, with the names of the HLI.
-static AXIS: &[Signal] = &[
-    axis_to_cnc::drive_enable_enable.named("drive_enable.enable_w"),
-    axis_to_cnc::drive_enable_command.named("drive_enable.command_w"),
-    axis_to_cnc::feed_enable_enable.named("feed_enable.enable_w"),
-    axis_to_cnc::feed_enable_command.named("feed_enable.command_w"),
-    axis_to_cnc::gantry_on_enable.named("gantry_on.enable_w"),
-    axis_to_cnc::gantry_on_command.named("gantry_on.command_w"),
-    axis_from_cnc::drive_enable_request.named("drive_enable.request_r"),
-    axis_from_cnc::drive_enable_state.named("drive_enable.state_r"),
-    axis_from_cnc::feed_enable_request.named("feed_enable.request_r"),
-    axis_from_cnc::feed_enable_state.named("feed_enable.state_r"),
-    axis_from_cnc::gantry_on_request.named("gantry_on.request_r"),
-    axis_from_cnc::gantry_on_state.named("gantry_on.state_r"),
-    axis_from_cnc::drive_ready,
-    axis_from_cnc::homed,
-    axis_from_cnc::homing,
-    axis_from_cnc::in_position,
-    axis_from_cnc::error,
-    axis_from_cnc::error_not_resettable,
-    axis_from_cnc::gantry_master,
-    axis_from_cnc::gantry_slave,
-    axis_from_cnc::gantry_coupled,
-    axis_from_cnc::axis_state,
-    axis_from_cnc::log_ax_n_r,
-    axis_from_cnc::axis_type_r,
-];
 
 /// The control units: the names that stand for their elements.
 static UNITS: &[Unit] = &[
@@ -194,6 +177,12 @@ static UNITS: &[Unit] = &[
         enable: channel_to_cnc::feed_override_enable,
         command: channel_to_cnc::feed_override_command,
         state: channel_from_cnc::feed_override_state,
+    },
+    Unit {
+        name: "program_block_ignore",
+        enable: channel_to_cnc::program_block_ignore_enable,
+        command: channel_skip_to_cnc::program_block_ignore_command,
+        state: channel_skip_from_cnc::program_block_ignore_state,
     },
     Unit {
         name: "drive_enable",
@@ -228,6 +217,20 @@ pub static HLI: Interface = Interface::new(Tables {
             ranges: &[
                 ByteRange::signals(0, 3, Part::ToNck, 0, size_of::<ChannelToCnc>()),
                 ByteRange::signals(4, 13, Part::FromNck, 0, size_of::<ChannelFromCnc>()),
+                ByteRange::signals(
+                    14,
+                    17,
+                    Part::ToNck,
+                    std::mem::offset_of!(ToCnc, skips),
+                    size_of::<ChannelSkipToCnc>(),
+                ),
+                ByteRange::signals(
+                    18,
+                    25,
+                    Part::FromNck,
+                    std::mem::offset_of!(FromCnc, skips),
+                    size_of::<ChannelSkipFromCnc>(),
+                ),
             ],
         },
         BlockTable {
@@ -243,7 +246,14 @@ pub static HLI: Interface = Interface::new(Tables {
             ],
         },
     ],
-    signals: &[CHANNEL, AXIS],
+    signals: &[
+        ChannelToCnc::SIGNALS,
+        ChannelFromCnc::SIGNALS,
+        ChannelSkipToCnc::SIGNALS,
+        ChannelSkipFromCnc::SIGNALS,
+        AxisToCnc::SIGNALS,
+        AxisFromCnc::SIGNALS,
+    ],
     to_nck: size_of::<ToCnc>(),
     from_nck: size_of::<FromCnc>(),
     hmi: 0,
@@ -251,7 +261,7 @@ pub static HLI: Interface = Interface::new(Tables {
         name: "isg",
         title: "the ISG kernel",
         number: 2,
-        windows: &[Window::new(801, 0, 13, Block::Channel, 0, 10), Window::new(901, 0, 9, Block::Axis, 0, 32)],
+        windows: &[Window::new(801, 0, 25, Block::Channel, 0, 10), Window::new(901, 0, 9, Block::Axis, 0, 32)],
         blocks: "DB801 to DB810, DB901 to DB932",
         axes: "DB 900 + logical number of the axis",
     }],

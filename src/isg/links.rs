@@ -12,7 +12,7 @@ use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
 use crate::motion::coupling::{Coupling, Follower, Moves, OffsetSource, Realign, Sign, Target, TwoStage};
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm, short_text};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, Quantity, RaisedAlarm, short_text};
 
 /// Coupling groups 0 to 6: 0 is of the channel list (SG-14).
 pub(super) const GROUPS: i64 = 7;
@@ -84,7 +84,7 @@ impl State {
         let by_list: Vec<bool> =
             definition.iter().map(|pair| matches!(pair.form, Form::Gantry { limits: None })).collect();
         for ((_, follower), _) in pairs.iter_mut().zip(by_list).filter(|(_, by_list)| *by_list) {
-            follower.limits = self.limits_of_list(follower.axis);
+            follower.limits = self.limits_of_list(follower.axis, cause);
         }
         let channel = &self.channels[index];
         let mut couplings: Vec<Coupling> = Vec::new();
@@ -112,10 +112,10 @@ impl State {
 
     /// The limits of the list of a slave that a pair without printed limits monitors. Values out of their ranges are messages, as they are
     /// at the start on a slave by list (HG-06, O-34).
-    fn limits_of_list(&mut self, slave: AxisNumber) -> Option<TwoStage> {
+    fn limits_of_list(&mut self, slave: AxisNumber, cause: EventId) -> Option<TwoStage> {
         let (limits, messages) = self.lists.gantry_pair(self.axes[slave].parameters.number)?;
         for message in &messages {
-            self.raise_at_start(message);
+            self.raise_at_start(message, cause);
         }
         self.axes[slave].parameters.correction_velocity = velocity(limits.correction_velocity);
         Some(TwoStage::new(Some(length(limits.first.into())), length(limits.second.into())))
@@ -179,7 +179,7 @@ impl State {
         Ok(pairs)
     }
 
-    fn referenced(&self, channel: &Channel, reference: &AxisReference) -> Option<AxisNumber> {
+    pub(super) fn referenced(&self, channel: &Channel, reference: &AxisReference) -> Option<AxisNumber> {
         match reference {
             AxisReference::Name(name) => channel.axis_named(name),
             AxisReference::Number(number) => {
@@ -233,31 +233,42 @@ impl State {
 
     /// A reset ends all groups; differences that it clears are cleared first (SG-04, SG-09).
     pub(super) fn reset_groups(&mut self, index: usize, cause: EventId) {
-        let Self { channels, axes, .. } = self;
+        let Self { channels, axes, log, .. } = self;
         let channel = &mut channels[index];
-        if channel.restores_after_reset && !channel.groups.is_empty() {
+        let is_kept = channel.retains_axes;
+        if channel.restores_after_reset && !is_kept && !channel.groups.is_empty() {
             channel.restored = channel.groups.iter().map(|group| group.number).collect();
             channel.restored_from_end = false;
         }
         for group in &mut channel.groups {
             for coupling in group.couplings.iter_mut().filter(|coupling| coupling.is_closed()) {
                 let view = AxesView(axes);
-                let clears = coupling.followers().any(|slave| {
-                    let axis = &axes[slave];
-                    let apart = coupling.setpoint_misalignment(slave, &view);
+                let apart = |slave| coupling.setpoint_misalignment(slave, &view).unwrap_or(Position::ZERO);
+                let clears = coupling.followers().find(|slave| {
+                    let axis = &axes[*slave];
                     axis.error != Some(AxisError::Locked)
                         && axis.is_powered()
                         && axis.parameters.correction_velocity > 0.0
                         && axis.parameters.clearing == Clearing::ResetOrUnit
-                        && coupling.is_monitored(slave)
-                        && apart.is_some_and(|apart| apart != Position::ZERO)
+                        && coupling.is_monitored(*slave)
+                        && apart(*slave) != Position::ZERO
                 });
-                if clears {
-                    group.ending = true;
+                if let Some(slave) = clears {
+                    group.ending = !is_kept;
+                    let input = Input::Length(Quantity::SynchronismDifference, slave, apart(slave));
+                    let event = log.note_one(Place::Axis(slave), Why::ClearingBegins, input, cause);
+                    for follower in coupling.followers() {
+                        axes[follower].causes.motion = event;
+                    }
+                    let view = AxesView(axes);
                     coupling
                         .begin_realignment(Realign { moves: Moves::Followers, target: Target::LeaderSetpoint }, &view);
                 }
             }
+        }
+        if is_kept {
+            // P-CHAN-00460.
+            return;
         }
         let over: Vec<u16> = channel.groups.iter().filter(|group| !group.ending).map(|group| group.number).collect();
         self.end_groups(index, &over, Why::GroupEnds, cause);
@@ -308,21 +319,22 @@ impl State {
 
     /// Differences that are still beyond a limit after they were cleared stop the axes again.
     pub(super) fn trip_again(&mut self) {
-        let beyond: Vec<(AxisNumber, bool)> = self
+        let beyond: Vec<(AxisNumber, Position, bool)> = self
             .combinations
             .iter()
             .filter(|one| one.coupling.is_closed())
             .flat_map(|one| one.coupling.differences())
             .filter(|(axis, _, stage)| (stage.first || stage.second) && self.axes[*axis].error.is_none())
-            .map(|(axis, _, stage)| (axis, stage.second))
+            .map(|(axis, difference, stage)| (axis, difference, stage.second))
             .collect();
-        for (slave, is_locked) in beyond {
+        for (slave, difference, is_locked) in beyond {
             let (number, error, why) = if is_locked {
                 (messages::STAGE_2, AxisError::Locked, Why::StageTwo)
             } else {
                 (messages::STAGE_1, AxisError::Resettable, Why::StageOne)
             };
-            let event = self.log.note_plain(Place::Axis(slave), why, self.axes[slave].causes.motion);
+            let inputs = self.beyond(slave, difference, is_locked);
+            let event = self.log.note(Place::Axis(slave), why, inputs, self.axes[slave].causes.motion);
             self.pending.raise(of_axis(number, slave), None, event);
             self.axis_error(slave, error, event);
         }

@@ -9,27 +9,21 @@
 //! | `cnc.rs` | the control behind the interface, and the order of a cycle |
 //! | `gantry.rs`, `combination.rs` | hard gantry: combinations, monitoring, clearing of differences |
 //! | `links.rs`, `groups.rs` | soft gantry: coupling groups |
-//! | `homing.rs` | homing of axes and combinations |
+//! | `homing/` | homing of axes and combinations |
 //! | `channel.rs`, `operation.rs`, `program.rs`, `exchange.rs` | a channel: start, reset, path, blocks, axis exchange |
 //! | `geometry.rs` | the pieces of a path |
 //! | `motion.rs` | setpoints and position control |
 //! | `messages.rs`, `pending.rs`, `rules.rs`, `texts.rs`, `data.rs` | messages and causes |
 //! | `phases.rs`, `charts.rs` | the state machines as tables |
-//! | `publish.rs` | the CNC's half of the interface, and variables |
+//! | `inputs.rs` | signals and blocks as inputs of causes |
+//! | `publish/` | the CNC's half of the interface, variables, the causes of its signals, and their conditions |
 //!
 //! Both kinds of gantry are policies over [`motion::coupling`](crate::motion::coupling), as the grouping of the SINUMERIK is. This module knows
 //! nothing of `sinumerik`.
 //!
 //! # Choices where the manuals are silent
 //!
-//! - After homing an axis goes back to the place of its reference, so that it stands on its reference position.
-//! - "In position" is a window of 0.1 µm; a program ends when its axes stand, also if somebody holds a slide away from its setpoint.
-//! - Position control has a gain of 16.67/s and no feedforward.
-//! - A movement waits for drives that start up after power on; later it needs their releases at once.
-//! - G02 and G03 with a centre and no end point are full circles. M00 holds the program, M01 does nothing: the interface cannot ask for it.
-//! - Single block that comes during a movement holds the program at the end of the block that runs.
-//! - A program that starts while a reset still clears differences waits for that; its groups are restored then (SG-18).
-//! - A slave whose list has no correction velocity (P-AXIS-00075) keeps its difference at RESET.
+//! Each is a row of `docs/decisions.md`: P-80 to P-101, and those that the rules HG and SG name.
 
 mod channel;
 mod charts;
@@ -43,6 +37,7 @@ mod geometry;
 mod groups;
 pub mod hli;
 mod homing;
+mod inputs;
 pub mod language;
 mod links;
 pub mod lists;

@@ -1,7 +1,8 @@
 //! The channel in a cycle: NC start, NC reset, single block, errors, and the path.
 
 use super::channel::{Channel, Inputs, Member, Modal, Task, Wait};
-use super::hli::{ChannelToCnc, channel_to_cnc};
+use super::hli::{ChannelSkipToCnc, ChannelToCnc, axis_from_cnc, channel_to_cnc};
+use super::inputs::{axis_signal, channel_signal};
 use super::language::Interpreter;
 use super::messages;
 use super::parameters::Clearing;
@@ -12,28 +13,41 @@ use crate::motion::Motion;
 use crate::motion::coupling::Coupling;
 use crate::motion::path::{Overrides, Path, PathLimits};
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm, SignalBit};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm};
 
 impl State {
     /// Takes the commands of the PLC to a channel.
-    pub(super) fn read_channel(&mut self, index: usize, to_cnc: &ChannelToCnc) {
+    pub(super) fn read_channel(&mut self, index: usize, to_cnc: &ChannelToCnc, skip: &ChannelSkipToCnc) {
         let channel = &mut self.channels[index];
         let before = channel.inputs;
         let feed_override =
             if to_cnc.feed_override_enable() { to_cnc.feed_override_command().min(OVERRIDE) } else { 1000 };
+        // P-93: of each level the bit of its number.
+        let skipped = if to_cnc.program_block_ignore_enable() { skip.program_block_ignore_command() } else { 0 };
         channel.inputs = Inputs {
             start: to_cnc.start(),
             reset: to_cnc.reset(),
             feed_hold: to_cnc.feed_hold(),
             single_block: to_cnc.single_block(),
             feed_override,
+            skipped,
         };
         let now = channel.inputs;
         let place = Place::Channel(channel.number);
         if now.feed_override != before.feed_override {
             let why = if to_cnc.feed_override_enable() { Why::Commanded } else { Why::Request };
-            let event = self.log.note_plain(place, why, EventId::NONE);
-            self.channels[index].causes.feed_override = event;
+            let by = channel_signal(
+                self.channels[index].number,
+                channel_to_cnc::feed_override_enable,
+                to_cnc.feed_override_enable(),
+            );
+            self.channels[index].causes.feed_override = self.log.note_one(place, why, by, EventId::NONE);
+        }
+        if now.skipped != before.skipped {
+            let enable = channel_to_cnc::program_block_ignore_enable;
+            let by = channel_signal(self.channels[index].number, enable, to_cnc.program_block_ignore_enable());
+            let why = if to_cnc.program_block_ignore_enable() { Why::Commanded } else { Why::Request };
+            self.channels[index].causes.skipped = self.log.note_one(place, why, by, EventId::NONE);
         }
         if now.reset && !before.reset {
             self.reset(index);
@@ -42,25 +56,20 @@ impl State {
         }
     }
 
-    fn bit(&self, index: usize, signal: &crate::image::Signal) -> Input {
-        let place = Place::Channel(self.channels[index].number);
-        Input::Bit(SignalBit { place, byte: signal.byte, bit: signal.bit }, true)
-    }
-
     /// NC start: a new program, or the next block.
     fn start(&mut self, index: usize) {
-        let input = self.bit(index, &channel_to_cnc::start);
+        let input = channel_signal(self.channels[index].number, channel_to_cnc::start, true);
         let channel = &mut self.channels[index];
         let place = Place::Channel(channel.number);
         match channel.task {
             Task::Stands => {
-                let event = self.log.note_one(place, Why::BlockRuns, input, channel.causes.program);
-                channel.causes.block = event;
+                let event = self.log.note_one(place, Why::GoesOn, input, channel.causes.stands);
+                (channel.causes.block, channel.causes.started, channel.causes.stands) = (event, event, event);
                 channel.task = Task::Runs;
             }
             Task::Idle if !channel.error => {
                 let Some(path) = channel.selected.clone() else { return };
-                let event = self.log.note_one(place, Why::ProgramStarts, input, EventId::NONE);
+                let event = self.log.note_one(place, Why::ProgramStarts, input, channel.causes.selected);
                 channel.begin(&path, event, self.lenient);
             }
             Task::Idle | Task::Runs | Task::Aborts => {}
@@ -69,7 +78,7 @@ impl State {
 
     /// NC reset: ends the program, clears what a reset clears (HG-07, HG-12).
     fn reset(&mut self, index: usize) {
-        let input = self.bit(index, &channel_to_cnc::reset);
+        let input = channel_signal(self.channels[index].number, channel_to_cnc::reset, true);
         let place = Place::Channel(self.channels[index].number);
         let event = self.log.note_one(place, Why::ResetEnds, input, self.channels[index].causes.program);
         self.end_job(index, event);
@@ -86,7 +95,8 @@ impl State {
 
     /// A reset clears differences and errors when the axes stand.
     fn finish_reset(&mut self, index: usize) {
-        let event = self.channels[index].causes.reset;
+        let (place, reset) = (Place::Channel(self.channels[index].number), self.channels[index].causes.reset);
+        let event = self.log.now(place, reset, Why::ResetClears, [Input::None; 3]);
         self.channels[index].resets = false;
         let members: Vec<AxisNumber> = self.existing().filter(|axis| self.is_of_channel(index, *axis)).collect();
         self.clear_differences_of(&members, event);
@@ -101,17 +111,17 @@ impl State {
             }
         }
         for axis in &cleared {
-            let cause = self.log.note_plain(Place::Axis(*axis), Why::Cleared, event);
+            let is_in_error = axis_signal(*axis, axis_from_cnc::error_not_resettable, false);
+            let cause = self.log.note_one(Place::Axis(*axis), Why::Cleared, is_in_error, event);
             let state = &mut self.axes[*axis];
             state.error = None;
             state.fault_stop = false;
             state.causes.error = cause;
         }
         let in_error = |axis: AxisNumber| self.axes[axis].error.is_some();
-        let channel_place = Place::Channel(self.channels[index].number);
         let stays = |alarm: &RaisedAlarm| match alarm.place {
             Place::Axis(axis) => in_error(axis) && !messages::is_warning(alarm.number) || !members.contains(&axis),
-            place => place != channel_place && place != Place::Nck,
+            other => other != place && other != Place::Nck,
         };
         self.pending.reset(event, stays);
         let error = members.iter().any(|axis| in_error(*axis));
@@ -196,7 +206,7 @@ impl State {
         self.channels[index].axes.iter().all(|member| self.axes[member.axis].setpoint.is_at_rest())
     }
 
-    /// The axes brake, each with its a_emergency after an error (HG-22), on the path after a reset.
+    /// The axes brake: each with its a_emergency after an error (HG-22); on the path after a reset, or as a homing run brakes.
     fn step_abort(&mut self, index: usize) {
         let is_error = self.channels[index].error;
         let channel = &mut self.channels[index];
@@ -206,7 +216,8 @@ impl State {
             }
             let axes: Vec<AxisNumber> = channel.axes.iter().map(|member| member.axis).collect();
             for axis in axes.iter().filter(|axis| !self.channels[index].is_slave(**axis)) {
-                let deceleration = self.axes[*axis].parameters.emergency;
+                let deceleration =
+                    if is_error { self.axes[*axis].parameters.emergency } else { self.homing_deceleration(*axis) };
                 self.axes[*axis].motion = Some(Motion::Brake { deceleration });
             }
         } else {
@@ -220,11 +231,13 @@ impl State {
         }
         if self.channels[index].has_moved() && self.stands(index) {
             let channel = &mut self.channels[index];
+            let place = Place::Channel(channel.number);
+            channel.causes.program = self.log.now(place, channel.causes.program, Why::ProgramStops, [Input::None; 3]);
             channel.end_program(false);
             if !channel.resets {
                 // SG-09: the end of the program ends a coupling, however it ends; a pending reset does so with its own rule.
                 let cause = channel.causes.program;
-                if !channel.error {
+                if !channel.error && !channel.retains_axes {
                     let numbers: Vec<u16> = channel.groups.iter().map(|group| group.number).collect();
                     self.end_groups(index, &numbers, Why::GroupEnds, cause);
                 }
@@ -264,7 +277,8 @@ impl State {
             path.go_on();
             channel.pass_blocks(1);
             if is_single && channel.task == Task::Runs {
-                (channel.task, channel.fetched_one) = (Task::Stands, false);
+                channel.fetched_one = false;
+                self.stand(index);
             }
             return;
         }
@@ -280,9 +294,32 @@ impl State {
         }
     }
 
+    /// The program stands until NC start: after a block, or at M00.
+    pub(super) fn stand(&mut self, index: usize) {
+        let channel = &mut self.channels[index];
+        channel.task = Task::Stands;
+        let single = channel_signal(channel.number, channel_to_cnc::single_block, channel.inputs.single_block);
+        let inputs = [super::inputs::block(channel.block()), single, Input::None];
+        let place = Place::Channel(channel.number);
+        channel.causes.stands = self.log.note(place, Why::ProgramStands, inputs, channel.causes.program);
+    }
+
+    /// Why an axis has no power: it is not enabled, or its drive is not ready.
+    pub(super) fn without_power(&self, axis: AxisNumber) -> (Why, Input, EventId) {
+        let state = &self.axes[axis];
+        if state.units.drive_enable {
+            let input = axis_signal(axis, axis_from_cnc::drive_ready, false);
+            (Why::DriveNotReady, input, state.causes.ready.max(state.causes.fault))
+        } else {
+            let input = axis_signal(axis, axis_from_cnc::drive_enable_state, false);
+            (Why::DriveNotEnabled, input, state.causes.drive_enable)
+        }
+    }
+
     /// An axis is to move without its releases.
     pub(super) fn drive_not_ready(&mut self, axis: AxisNumber) {
-        let event = self.log.note_plain(Place::Axis(axis), Why::DriveNotReady, self.axes[axis].causes.ready);
+        let (why, input, parent) = self.without_power(axis);
+        let event = self.log.note_one(Place::Axis(axis), why, input, parent);
         self.pending.raise(of_axis(messages::DRIVE_NOT_READY, axis), None, event);
         self.axis_error(axis, AxisError::Resettable, event);
     }
@@ -301,11 +338,14 @@ impl State {
         hard.chain(soft).filter(|coupling| clears(coupling)).any(|coupling| coupling.members().any(|one| one == axis))
     }
 
-    /// The path of a channel, at rest, with the present positions and limits of its axes.
-    pub(super) fn place_path(&mut self, index: usize) {
+    /// The path of a channel, at rest, with the present positions and limits of its axes: those that a block names, then the others as far
+    /// as there is room.
+    pub(super) fn place_path(&mut self, index: usize, named: &[AxisNumber]) {
         let channel = &self.channels[index];
-        let free = channel.axes.iter().filter(|member| !channel.is_slave(member.axis));
-        let axes: Vec<AxisNumber> = free.map(|member| member.axis).take(crate::motion::path::PATH_AXES).collect();
+        let free = channel.axes.iter().map(|member| member.axis).filter(|axis| !channel.is_slave(*axis));
+        let mut axes: Vec<AxisNumber> = free.collect();
+        axes.sort_by_key(|axis| !named.contains(axis));
+        axes.truncate(crate::motion::path::PATH_AXES);
         let mut position = [0.0; crate::motion::path::PATH_AXES];
         let mut limits = PathLimits {
             velocity: [f64::INFINITY; crate::motion::path::PATH_AXES],
@@ -334,7 +374,11 @@ impl State {
     ) -> EventId {
         let channel = self.channels[index].number;
         let place = Place::Channel(channel);
-        let event = self.log.note_plain(place, Why::Raised, cause);
+        let number_of_block = match more[0] {
+            Parameter::Number(number) => u32::try_from(number).map_or(Input::None, super::inputs::block),
+            _ => Input::None,
+        };
+        let event = self.log.note_one(place, Why::Raised, number_of_block, cause);
         let [second, third, fourth] = more;
         let alarm = RaisedAlarm { number, place, parameters: [Parameter::Channel(channel), second, third, fourth] };
         self.pending.raise(alarm, other, event);
@@ -351,7 +395,7 @@ impl Channel {
         self.task = Task::Runs;
         self.completed = false;
         self.ended = false;
-        (self.causes.program, self.causes.block) = (cause, cause);
+        (self.causes.program, self.causes.block, self.causes.started) = (cause, cause, cause);
         self.interpreter = Some(Interpreter::new(path, lenient));
         (self.prepared, self.fault, self.wait) = (None, None, Wait::Nothing);
         self.blocks.clear();

@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::language::Sign;
 use crate::motion::coupling::TwoStage;
 use crate::units::{AxisNumber, Position};
 
@@ -18,6 +19,11 @@ pub(super) const fn length(tenths: i64) -> Position {
     Position::new(tenths * LENGTH)
 }
 
+/// A length in the unit of the lists.
+pub(super) fn tenths(at: Position) -> f64 {
+    at.increments() as f64 / LENGTH as f64
+}
+
 /// A velocity of a list, in increments per second.
 pub(super) fn velocity(number: u32) -> f64 {
     f64::from(number) * VELOCITY
@@ -26,6 +32,35 @@ pub(super) fn velocity(number: u32) -> f64 {
 /// An acceleration of a list, in increments per second squared.
 pub(super) fn acceleration(number: u32) -> f64 {
     f64::from(number) * ACCELERATION
+}
+
+/// The range of a modulo axis (P-AXIS-00127 and P-AXIS-00126).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Modulo {
+    pub lower: Position,
+    pub upper: Position,
+}
+
+impl Modulo {
+    /// A position as it is shown: within the range.
+    pub(super) fn shown(self, position: Position) -> Position {
+        let width = (self.upper - self.lower).increments();
+        self.lower + Position::new((position - self.lower).increments().rem_euclid(width.max(1)))
+    }
+
+    /// Where an absolute movement ends: at most one turn, in the direction of the sign behind the name of the axis, else on the shortest
+    /// way; half a turn goes in plus direction. `way` is the value of the word, with its sign.
+    pub(super) fn target(self, start: f64, way: f64, sign: Option<Sign>) -> f64 {
+        let width = (self.upper - self.lower).increments() as f64;
+        let position = if sign == Some(Sign::Minus) { -way } else { way };
+        let forward = (position - start).rem_euclid(width);
+        let goes_back = match sign {
+            Some(Sign::Plus) => false,
+            Some(Sign::Minus) => forward > 0.0,
+            None => forward > width / 2.0,
+        };
+        start + if goes_back { forward - width } else { forward }
+    }
 }
 
 /// How a difference is cleared (P-AXIS-00704, with P-AXIS-00261).
@@ -81,6 +116,8 @@ pub(super) struct AxisParameters {
     /// P-AXIS-00015.
     pub mode: u32,
     pub is_rotary: bool,
+    /// The range of a modulo axis.
+    pub modulo: Option<Modulo>,
     pub is_master: bool,
     pub is_slave: bool,
     /// The master of a slave (P-AXIS-00070).

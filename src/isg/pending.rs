@@ -63,8 +63,9 @@ impl Pending {
 
     /// The event behind a pending message.
     pub(super) fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
-        let found = self.alarms.iter().find(|(alarm, _)| (alarm.number, alarm.place) == (number, place));
-        found.map_or(EventId::NONE, |(_, cause)| *cause)
+        // Of several with other parameters, the one that came last.
+        let same = self.alarms.iter().filter(|(alarm, _)| (alarm.number, alarm.place) == (number, place));
+        same.map(|(_, cause)| *cause).max().unwrap_or(EventId::NONE)
     }
 }
 

@@ -76,6 +76,7 @@ pub(super) const LINK_STEPS: &[Transition<LinkPhase, Why>] = &[
     row(LinkPhase::Active, Why::ClearingBegins, LinkPhase::Clearing),
     row(LinkPhase::Stopped, Why::SoftStageTwo, LinkPhase::Locked),
     row(LinkPhase::Stopped, Why::ClearingBegins, LinkPhase::Clearing),
+    row(LinkPhase::Stopped, Why::Cleared, LinkPhase::Active),
     row(LinkPhase::Stopped, Why::GroupEnds, LinkPhase::Inactive),
     row(LinkPhase::Locked, Why::GroupEnds, LinkPhase::Inactive),
     row(LinkPhase::Clearing, Why::GroupEnds, LinkPhase::Inactive),

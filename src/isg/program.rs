@@ -11,7 +11,7 @@ use super::rules::Why;
 use super::state::State;
 use crate::nc_program::Program;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm, short_text};
+use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm, short_text};
 
 /// Blocks that are fetched in a cycle at most: a program that jumps for ever does not stop the time.
 const FETCHED: usize = 64;
@@ -50,8 +50,9 @@ impl Environment for View<'_> {
         self.is_executed
     }
 
-    fn is_skipped(&self, _: u8) -> bool {
-        false
+    fn is_skipped(&self, level: u8) -> bool {
+        let bit = u32::from(level.saturating_sub(1));
+        self.state.channels[self.channel].inputs.skipped.checked_shr(bit).unwrap_or(0) & 1 == 1
     }
 
     fn program(&self, path: &str) -> Option<Arc<Program>> {
@@ -88,7 +89,7 @@ impl State {
             if channel.halts {
                 if is_executed {
                     channel.halts = false;
-                    channel.task = Task::Stands;
+                    self.stand(index);
                 }
                 return;
             }
@@ -104,8 +105,8 @@ impl State {
             }
             if channel.fetched_one && channel.inputs.single_block && !channel.ended {
                 if is_executed {
-                    channel.fetched_one = false;
-                    channel.task = Task::Stands;
+                    self.channels[index].fetched_one = false;
+                    self.stand(index);
                 }
                 return;
             }
@@ -159,16 +160,22 @@ impl State {
         let inputs = self.channels[index].inputs;
         let holds = inputs.feed_hold || inputs.feed_override == 0;
         let left = match wait {
-            Wait::Nothing | Wait::Dwell(0) => Wait::Nothing,
+            // The cycle in which a dwell ends goes on with the next block.
+            Wait::Nothing | Wait::Dwell(0 | 1) => Wait::Nothing,
             Wait::Dwell(cycles) => Wait::Dwell(cycles - 1),
-            Wait::Homing(job) if holds || self.misses_feed_enable(&job) => Wait::Homing(job),
+            Wait::Homing(job) if holds || self.misses_feed_enable(&job) => {
+                self.brake_homing(&job);
+                Wait::Homing(job)
+            }
             Wait::Homing(mut job) => {
                 if let Some(axis) = self.homing_now(&job).into_iter().find(|axis| self.lacks_releases(*axis)) {
                     self.drive_not_ready(axis);
-                    self.channels[index].wait = Wait::Homing(job);
-                    return;
+                    Wait::Homing(job)
+                } else if self.home(&mut job) {
+                    Wait::Nothing
+                } else {
+                    Wait::Homing(job)
                 }
-                if self.home(&mut job) { Wait::Nothing } else { Wait::Homing(job) }
             }
         };
         // An error of an axis has ended the program meanwhile.
@@ -203,6 +210,10 @@ impl State {
         let event = self.log.note_plain(Place::Channel(channel.number), Why::ProgramEnds, channel.causes.program);
         channel.causes.program = event;
         channel.end_program(true);
+        if channel.retains_axes {
+            // P-CHAN-00460: couplings outlive the program, as the axes do.
+            return;
+        }
         let numbers: Vec<u16> = channel.groups.iter().map(|group| group.number).collect();
         if channel.restores_after_end {
             channel.restored.clone_from(&numbers);
@@ -309,7 +320,7 @@ impl State {
             if feed < 0.0 || !feed.is_finite() {
                 return Err(value("F below 0"));
             }
-            modal.feed = feed;
+            modal.feed = feed * self.channels[index].feed_unit;
         }
         // A circle without an end point is a full one.
         let is_circle = modal.motion >= 2 && (block.radius.is_some() || block.centre.iter().any(Option::is_some));
@@ -329,7 +340,7 @@ impl State {
             }
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within its limits")]
             let whole = cycles.ceil() as u64;
-            self.channels[index].wait = Wait::Dwell(whole);
+            self.channels[index].wait = if whole == 0 { Wait::Nothing } else { Wait::Dwell(whole) };
         }
         if !block.homing.is_empty() {
             self.begin_homing(index, block, cause)?;
@@ -351,7 +362,7 @@ impl State {
     fn abort_with_warning(&mut self, index: usize, block: u32) {
         let channel = &mut self.channels[index];
         let (number, place) = (channel.number, Place::Channel(channel.number));
-        let event = self.log.note_plain(place, Why::Raised, channel.causes.program);
+        let event = self.log.note_one(place, Why::Raised, super::inputs::block(block), channel.causes.program);
         let text = Parameter::Text(short_text("M30 in a subroutine"));
         let parameters = [Parameter::Channel(number), Parameter::Number(block.into()), text, Parameter::None];
         self.pending.raise_as(RaisedAlarm { number: messages::NC_CALL, place, parameters }, None, true, event);
@@ -367,10 +378,8 @@ impl State {
             return;
         }
         channel.shown = number;
-        let mut name = crate::variables::BlockName::new();
-        let _ = std::fmt::Write::write_fmt(&mut name, format_args!("N{number}"));
-        let place = Place::Channel(channel.number);
-        channel.causes.block = self.log.note_one(place, Why::BlockRuns, Input::Block(name), channel.causes.program);
+        let (place, block) = (Place::Channel(channel.number), super::inputs::block(number));
+        channel.causes.block = self.log.note_one(place, Why::BlockRuns, block, channel.causes.started);
     }
 
     fn begin_homing(&mut self, index: usize, block: &Block, cause: EventId) -> Outcome {

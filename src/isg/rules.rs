@@ -18,12 +18,17 @@ macro_rules! rules {
 
 rules! {
     PowerOn: "HG-02", "the controller starts: parameter lists take effect";
+    AsAfterStart: "HG-02", "as after the start of the controller";
+    FaultBegins: "fault", "a fault begins";
+    FaultEnds: "fault", "a fault ends";
     Request: "HLI", "the request of the CNC acts, because enable_w is 0";
     Commanded: "HLI", "the command of the PLC acts, because enable_w is 1";
     DriveStarted: "HLI", "the drive has started up and has no fault";
     DriveFault: "HG-13", "the drive reports a fault";
     DriveNotReady: "HLI", "the drive is not ready";
+    DriveNotEnabled: "HLI", "the drive is not enabled";
     AbsoluteEncoder: "HG-29", "the encoder is absolute: the axis is homed without a homing run";
+    ReferenceLost: "HG-29", "G74 names the combination: no axis of it counts as homed until its own homing has ended";
     HomingBegins: "HG-30", "G74 begins the homing run of this axis";
     HomingInTurn: "HG-09", "the homing run of this axis begins: the axis before it is homed";
     HomingAtOnce: "HG-10", "the drives home by themselves: all axes of the combination begin in the same cycle";
@@ -56,9 +61,18 @@ rules! {
     GroupEnds: "SG-09", "program end or reset ends a coupling";
     GroupRestored: "SG-09", "the program start switches a coupling on again (P-CHAN-00104, P-CHAN-00105)";
     ProgramStarts: "NC", "a rising edge of NC start starts the selected program";
+    GoesOn: "NC", "a rising edge of NC start continues the program that stands after a block";
     ProgramEnds: "NC", "the program has reached its end";
     ProgramAborted: "NC", "a message ends the program";
+    ProgramStops: "NC", "the axes stand: the program that was ended is over";
+    ProgramSelected: "NC", "a program is selected";
+    ProgramReady: "NC", "no program runs, and one is selected";
+    ProgramMissing: "NC", "no program runs, and none is selected";
+    ProgramStands: "NC", "the program stands until NC start: single block, or M00";
+    ProgramRuns: "NC", "the program runs, and nothing holds it";
+    ChannelInError: "NC", "the channel is in the error state";
     ResetEnds: "NC", "a rising edge of NC reset ends the program";
+    ResetClears: "NC", "the axes stand: the reset clears";
     Held: "NC", "feed hold, override 0, or a missing feed enable holds the movement";
     Moves: "NC", "the axis moves";
     Stands: "NC", "the axis stands at its setpoint";

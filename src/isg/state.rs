@@ -48,6 +48,8 @@ pub(super) enum AxisError {
 /// The events behind the signals of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct AxisCauses {
+    /// The last fault of the mechanics or the drive that began or ended.
+    pub fault: EventId,
     pub drive_enable: EventId,
     pub feed_enable: EventId,
     pub gantry_on: EventId,
@@ -73,6 +75,8 @@ pub(super) struct Axis {
     pub shift: Position,
     pub homed: bool,
     pub run: Option<Run>,
+    /// A slave whose combination is being homed: its difference is not absolute until all are homed (HG-29).
+    pub waits_for_others: bool,
     pub error: Option<AxisError>,
     pub units: Units,
     /// The drive has been ready since the start.
@@ -94,6 +98,16 @@ impl Axis {
     /// The actual value.
     pub(super) fn actual(&self) -> Position {
         self.feedback.encoders[0].value + self.shift
+    }
+
+    /// Whether differences count from its reference.
+    pub(super) fn has_reference(&self) -> bool {
+        self.homed && !self.waits_for_others
+    }
+
+    /// A position as it is shown: that of a modulo axis is within its range.
+    pub(super) fn shown(&self, position: Position) -> Position {
+        self.parameters.modulo.map_or(position, |modulo| modulo.shown(position))
     }
 
     /// Setpoint minus actual value.
@@ -119,7 +133,7 @@ impl Axis {
 }
 
 /// The window of "in position": 0.1 µm, or 0.0001°.
-const IN_POSITION: Position = Position::new(100);
+pub(super) const IN_POSITION: Position = Position::new(100);
 /// Cycles without movement after which an axis counts as standing.
 const STILL: u32 = 25;
 
@@ -142,6 +156,10 @@ pub(super) struct State {
     /// The parameters in effect, for expressions.
     pub in_effect: Arc<Vec<ParameterValue>>,
     pub power_on: EventId,
+    /// What holds since the start of the controller.
+    pub as_after_start: EventId,
+    /// The parameters that became active and are not recorded yet.
+    pub activated: Vec<(ParameterValue, EventId)>,
     pub plc_missing: EventId,
     /// The encoders have not reported since the start.
     pub starts: bool,
@@ -173,6 +191,6 @@ impl Axes for AxesView<'_> {
     }
 
     fn is_referenced(&self, axis: AxisNumber) -> bool {
-        self.0[axis].homed
+        self.0[axis].has_reference()
     }
 }

@@ -129,6 +129,10 @@ impl Texts for IsgTexts {
         rows
     }
 
+    fn program_ending(&self) -> &'static str {
+        ".NC"
+    }
+
     fn charts(&self) -> Vec<Chart> {
         charts::charts()
     }

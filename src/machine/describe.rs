@@ -8,6 +8,13 @@ use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, Describe, Parameter, Place, RaisedAlarm, Rule, RuleNumber};
 
+impl Machine {
+    /// The ending in the names of NC programs on this control: `.NC`, or none.
+    pub(crate) fn program_ending(&self) -> &'static str {
+        self.control.texts().program_ending()
+    }
+}
+
 impl Describe for Machine {
     fn names(&self) -> &Names {
         &self.definition.names

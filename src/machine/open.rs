@@ -95,6 +95,7 @@ impl Machine {
         let hints = PerAxis::from_fn(|axis| Hints {
             exists: axes[axis].exists,
             cam_direction: axes[axis].cam_direction,
+            cam_is_fixed: axes[axis].cam_is_fixed,
             zero_mark_spacing: axes[axis].zero_mark_spacing,
             encoders: axes[axis].encoders.map(|model| match model {
                 EncoderModel::Incremental => EncoderKind::Incremental,

@@ -11,6 +11,8 @@ pub struct Hints {
     pub exists: bool,
     /// Direction of the cam search, −1 or +1; 0 for an axis without cam (MD34000).
     pub cam_direction: i8,
+    /// The default cam begins midway between two zero marks of encoder 1, wherever the slide starts.
+    pub cam_is_fixed: bool,
     /// Distance of the zero marks of both encoders, used if `plant.toml` does not give it.
     pub zero_mark_spacing: [Position; 2],
     /// The types of both encoders, used if `plant.toml` does not give them.
@@ -72,8 +74,9 @@ pub struct Layout {
     pub unwired: [AxisSet; 3],
 }
 
-/// Distance of the default cam from the start position.
+/// Distance of the default cam from the start position, and of a fixed one from position 0.
 const DEFAULT_CAM_DISTANCE: f64 = 100.0;
+const FIXED_CAM_DISTANCE: f64 = 105.0;
 /// Length of the default cam; long enough that no slide starts behind it.
 const DEFAULT_CAM_LENGTH: f64 = 100_000.0;
 
@@ -167,7 +170,15 @@ fn axis_mechanics(definition: &PlantDefinition, name: &str, hints: Hints) -> Axi
     let cam = match &said.cam {
         Given::Said(cam) => Some(*cam),
         Given::Removed => None,
-        Given::Unsaid => default_cam(said.start, hints.cam_direction),
+        Given::Unsaid => {
+            let spacing = said.encoders[0].zero_mark_spacing.unwrap_or(hints.zero_mark_spacing[0]);
+            let near = if hints.cam_is_fixed {
+                between_marks(said.encoders[0].zero_mark, spacing, hints.cam_direction)
+            } else {
+                said.start + Position::from_user(f64::from(hints.cam_direction) * DEFAULT_CAM_DISTANCE)
+            };
+            default_cam(near, hints.cam_direction)
+        }
     };
     AxisMechanics {
         start: said.start,
@@ -191,12 +202,20 @@ fn switch(given: &Given<LimitSwitch>) -> Option<LimitSwitch> {
     }
 }
 
-fn default_cam(start: Position, direction: i8) -> Option<Cam> {
-    let near = Position::from_user(DEFAULT_CAM_DISTANCE);
-    let far = Position::from_user(DEFAULT_CAM_DISTANCE + DEFAULT_CAM_LENGTH);
+/// The place midway between two zero marks that is nearest to the usual distance of a cam.
+fn between_marks(mark: Position, spacing: Position, direction: i8) -> Position {
+    let spacing = spacing.max(Position::new(1)).increments();
+    let wanted = Position::from_user(f64::from(direction) * FIXED_CAM_DISTANCE);
+    let marks = (wanted - mark).increments().div_euclid(spacing);
+    mark + Position::new(marks * spacing + spacing / 2)
+}
+
+/// A long cam that begins here and reaches away from the start.
+fn default_cam(near: Position, direction: i8) -> Option<Cam> {
+    let length = Position::from_user(DEFAULT_CAM_LENGTH);
     match direction {
         0 => None,
-        1.. => Some(Cam { from: start + near, to: start + far, input: None }),
-        _ => Some(Cam { from: start - far, to: start - near, input: None }),
+        1.. => Some(Cam { from: near, to: near + length, input: None }),
+        _ => Some(Cam { from: near - length, to: near, input: None }),
     }
 }

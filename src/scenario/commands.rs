@@ -49,7 +49,7 @@ impl Session {
     /// # Errors
     /// The file cannot be read, or the channel does not exist.
     pub fn program(&mut self, file: &str, channel: u8) -> Result<(), Failure> {
-        let mut programs = NcPrograms::default();
+        let mut programs = NcPrograms::of(&self.machine);
         let path = programs.file(file, Path::new(""), &Place::file(file))?;
         self.select(programs, path, channel)
     }
@@ -59,7 +59,7 @@ impl Session {
     /// # Errors
     /// The channel does not exist.
     pub fn nc(&mut self, text: &str, channel: u8) -> Result<(), Failure> {
-        let mut programs = NcPrograms::after(self.texts.clone());
+        let mut programs = NcPrograms::after(self.texts.clone(), &self.machine);
         let path = programs.text(text);
         self.texts = programs.texts().to_vec();
         self.select(programs, path, channel)

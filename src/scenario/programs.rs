@@ -29,12 +29,19 @@ pub(super) struct NcPrograms {
     search_path: Vec<String>,
     /// Programs with their text in the scenario, and their paths.
     texts: Vec<Text>,
+    /// The ending in the names of programs on this control.
+    ending: &'static str,
 }
 
 impl NcPrograms {
+    /// No programs yet, for this machine.
+    pub(super) fn of(machine: &Machine) -> Self {
+        Self { ending: machine.program_ending(), ..Self::default() }
+    }
+
     /// Programs of a session that has selected these texts before: another text gets another name.
-    pub(super) fn after(texts: Vec<Text>) -> Self {
-        Self { texts, ..Self::default() }
+    pub(super) fn after(texts: Vec<Text>, machine: &Machine) -> Self {
+        Self { texts, ..Self::of(machine) }
     }
 
     /// The texts so far.
@@ -78,7 +85,7 @@ impl NcPrograms {
             return path.clone();
         }
         let number = self.texts.len() + 1;
-        let program = Program::new(&format!("NC{number}"), ProgramKind::Main, IN_PLACE, text.as_bytes());
+        let program = Program::new(&format!("NC{number}{}", self.ending), ProgramKind::Main, IN_PLACE, text.as_bytes());
         let path = program.path();
         self.texts.push((text.into(), path.clone()));
         self.loaded.push(program);

@@ -153,7 +153,7 @@ impl<'a> Reader<'a> {
     pub(super) fn new(machine: &'a Machine, file: &Path) -> Self {
         let files = vec![file.to_owned()];
         let (captured, followed) = (Vec::new(), Followed::default());
-        let programs = NcPrograms::default();
+        let programs = NcPrograms::of(machine);
         Self { machine, captured, followed, reconfigured: [false; 2], files, times: 1, programs }
     }
 

@@ -73,6 +73,7 @@ impl Commissioning {
                     (true, true) => 1,
                     (true, false) => -1,
                 },
+                cam_is_fixed: false,
                 zero_mark_spacing: spacing(&acting.axes[axis]),
                 encoders: parameters.axes[axis].reference.kind.map(|kind| match kind {
                     Kind::Absolute => EncoderModel::Absolute,

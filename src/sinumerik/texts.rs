@@ -91,6 +91,10 @@ impl Texts for Words {
         let exchange = Chart::of("exchange", "Axis exchange", exchange::state::TRANSITIONS, Holder::text, |_| None);
         vec![approach, grouping, exchange]
     }
+
+    fn program_ending(&self) -> &'static str {
+        ""
+    }
 }
 
 fn row(alarm: &Alarm, raised: bool) -> AlarmRow {

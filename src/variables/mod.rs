@@ -71,7 +71,7 @@ pub struct Variables {
 }
 
 /// A parameter in effect.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct ParameterValue {
     /// Its number.
     pub number: u32,
@@ -83,6 +83,14 @@ pub struct ParameterValue {
     pub value: f64,
     /// Its word, if it is one.
     pub word: Option<ShortText>,
+}
+
+/// Values are compared bit by bit: the NaN of a word equals itself.
+impl PartialEq for ParameterValue {
+    fn eq(&self, other: &Self) -> bool {
+        let key = |of: &Self| (of.number, of.index, of.place, of.value.to_bits());
+        key(self) == key(other) && self.word == other.word
+    }
 }
 
 /// The texts for the numbers, provided by the control.

@@ -13,9 +13,6 @@ fn findings(session: &Session) -> Vec<CauseFinding> {
     session.trace().check_causes(session.machine(), &Watch::default())
 }
 
-/// Scenarios with causes that are not correct yet: the control of the ISG kernel.
-const NOT_YET: [&str; 1] = ["golden/isg_"];
-
 #[test]
 fn every_cause_in_the_golden_scenarios_is_correct() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -25,9 +22,6 @@ fn every_cause_in_the_golden_scenarios_is_correct() {
         for case in cases(&file).unwrap() {
             let finished = case.scenario.prepare(case.profile, &programs).unwrap().measure_causes().run();
             let name = file.strip_prefix(root).unwrap_or(&file).display().to_string();
-            if NOT_YET.iter().any(|later| name.starts_with(later)) {
-                continue;
-            }
             wrong.extend(findings(finished.session()).iter().map(|finding| format!("{name}: {finding}")));
         }
     }

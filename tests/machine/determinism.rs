@@ -6,7 +6,7 @@ use std::process::Command as Process;
 use opennck::image::Profile;
 use opennck::machine::{Command, DatumValue, Fault, FaultKind, Machine};
 use opennck::plc::{OnDelay, PlcProgram, Programs, program};
-use opennck::scenario::Scenario;
+use opennck::scenario::{Scenario, State};
 use opennck::units::{Position, Time};
 
 const SCENARIO: &str = "golden/worked_example/gantry_references_and_synchronises.toml";
@@ -339,4 +339,71 @@ fn a_machine_rejects_damaged_bytes_and_stays_unchanged() {
         assert!(machine.restore(&damaged).is_err(), "byte {place}");
     }
     assert!(machine.save() == saved, "a rejected state must not change the machine");
+}
+
+/// The scenarios of the second control, each run by two machines. One of them is saved and restored in a third machine, or replaced by its
+/// fork, again and again; at other moments power goes off and on. Homing, clearing, and programs that wait are among these moments.
+#[test]
+fn the_second_control_is_saved_forked_and_switched_off_at_any_moment() {
+    let mut files = scenarios();
+    files.retain(|file| file.components().any(|part| part.as_os_str().to_string_lossy().starts_with("isg_")));
+    assert!(files.len() > 60);
+    for file in files {
+        let scenario = Scenario::read_cases(&file).expect("a scenario").remove(0);
+        let open = || {
+            let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready()).expect("it can be used");
+            prepared.into_operator()
+        };
+        let (mut origin, mut operator, _) = open();
+        let (mut replaced, mut second, _) = open();
+        let (mut spare, _, _) = open();
+        loop {
+            operator.act(&mut origin);
+            second.act(&mut replaced);
+            if *operator.state() != State::Acting {
+                break;
+            }
+            origin.step();
+            replaced.step();
+            operator.look(&origin);
+            second.look(&replaced);
+            let what = format!("{}: saved, restored and forked", file.display());
+            assert_same(&origin, &replaced, &what);
+            origin.drain();
+            replaced.drain();
+            match origin.cycle() % 74 {
+                17 => {
+                    let saved = replaced.save();
+                    assert!(saved == origin.save(), "{what}: saved states differ in cycle {}", origin.cycle());
+                    spare.restore(&saved).expect("it was saved on the same machine");
+                    std::mem::swap(&mut spare, &mut replaced);
+                    replaced.drain();
+                }
+                54 => replaced = replaced.fork().expect("a program that can be forked"),
+                _ => {}
+            }
+            if origin.cycle() % 101 == 7 {
+                switch_off(&origin, &replaced, &format!("{}: power off and on", file.display()));
+            }
+        }
+    }
+}
+
+/// Power off and on stops programs and coupling groups, in two machines alike.
+fn switch_off(one: &Machine, other: &Machine, what: &str) {
+    let mut forks = [one, other].map(|machine| machine.fork().expect("a program that can be forked"));
+    for machine in &mut forks {
+        machine.queue(Command::PowerOn).expect("power");
+    }
+    for _ in 0..40 {
+        for machine in &mut forks {
+            machine.drain();
+            machine.step();
+            let location = machine.names().resolve(machine.memory(), "channel_1.program_active").expect("a signal");
+            assert_eq!(machine.memory().read(location), 0, "{what}, cycle {}", machine.cycle());
+            assert!(machine.variables().channels.iter().all(|(_, channel)| channel.coupling_groups == 0), "{what}");
+        }
+        let [one, other] = &forks;
+        assert_same(one, other, what);
+    }
 }

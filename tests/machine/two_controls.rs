@@ -241,6 +241,7 @@ fn disturbances() -> Vec<(&'static str, Option<FaultKind>)> {
         ("held 0.6 mm away: beyond both limits", Some(FaultKind::Hold { by: by(0.6) })),
         ("pushed once by 0.05 mm", Some(FaultKind::Push { by: by(0.05) })),
         ("pushed once by 0.2 mm", Some(FaultKind::Push { by: by(0.2) })),
+        ("moved by hand by 0.2 mm", Some(FaultKind::MovedByHand { by: by(0.2) })),
         ("its drive reports a fault", Some(FaultKind::DriveFault)),
     ]
 }

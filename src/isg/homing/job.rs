@@ -28,4 +28,19 @@ impl Job {
         axes.sort_by_key(|(order, _)| *order);
         Self { waiting: axes, running: Vec::new(), cause }
     }
+
+    /// Whether the turn of an axis comes later.
+    pub(in crate::isg) fn waits_for(&self, axis: AxisNumber) -> bool {
+        self.waiting.iter().any(|(_, waits)| *waits == axis)
+            || self.running.iter().any(|chain| chain.members.iter().skip(chain.ended).any(|member| *member == axis))
+    }
+
+    /// The axes that home now.
+    pub(in crate::isg) fn now(&self) -> impl Iterator<Item = AxisNumber> + '_ {
+        let of_chain = |chain: &Chain| {
+            let count = if chain.at_once { chain.members.len() } else { 1 };
+            chain.members.iter().skip(chain.ended).take(count).copied().collect::<Vec<_>>()
+        };
+        self.running.iter().flat_map(of_chain)
+    }
 }

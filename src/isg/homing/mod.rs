@@ -10,11 +10,15 @@ pub(super) mod run;
 use job::{Chain, Job};
 use run::Run;
 
+use super::hli::axis_from_cnc;
+use super::inputs::axis_signal;
 use super::messages;
+use super::parameters::{Homing, tenths};
 use super::pending::of_axis;
 use super::phases::HOMING;
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
+use crate::motion::Motion;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
 
@@ -26,7 +30,8 @@ impl State {
             let next: Vec<AxisNumber> =
                 job.waiting.iter().filter(|(other, _)| *other == order).map(|(_, axis)| *axis).collect();
             job.waiting.retain(|(other, _)| *other != order);
-            job.running = next.into_iter().map(|axis| self.chain(axis)).collect();
+            let cause = job.cause;
+            job.running = next.into_iter().map(|axis| self.chain(axis, cause)).collect();
         }
         let cause = job.cause;
         for chain in &mut job.running {
@@ -41,11 +46,27 @@ impl State {
         job.running.iter().flat_map(|chain| &chain.members).flat_map(|axis| self.coupled_with(*axis)).collect()
     }
 
+    /// The axes of a homing that is held brake as their runs do.
+    pub(super) fn brake_homing(&mut self, job: &Job) {
+        for member in job.running.iter().flat_map(|chain| &chain.members) {
+            if self.axes[*member].run.is_some() {
+                let deceleration = self.homing_deceleration(*member);
+                self.axes[*member].motion = Some(Motion::Brake { deceleration });
+            }
+        }
+    }
+
+    /// How a homing run brakes that is no error: P-AXIS-00285, the smallest of the axes that are coupled.
+    pub(super) fn homing_deceleration(&self, axis: AxisNumber) -> f64 {
+        self.smallest(axis, |parameters| parameters.homing.acceleration)
+    }
+
     /// Ends a homing without a reference.
     pub(super) fn end_homing(&mut self, job: &Job, cause: EventId) {
         for member in job.running.iter().flat_map(|chain| &chain.members) {
             if self.axes[*member].run.take().is_some() {
-                let event = self.log.note_plain(Place::Axis(*member), Why::HomingAborted, cause);
+                let runs = axis_signal(*member, axis_from_cnc::homing, true);
+                let event = self.log.note_one(Place::Axis(*member), Why::HomingAborted, runs, cause);
                 self.axes[*member].causes.homing = event;
             }
         }
@@ -55,14 +76,14 @@ impl State {
     }
 
     /// The axes that home with an axis: the master first, then its slaves in the order of their numbers.
-    fn chain(&mut self, axis: AxisNumber) -> Chain {
+    fn chain(&mut self, axis: AxisNumber, cause: EventId) -> Chain {
         let Some(index) = self.combination_of(axis).filter(|index| !self.combinations[*index].coupling.is_open())
         else {
             return Chain { members: vec![axis], ended: 0, at_once: false };
         };
         let coupling = &self.combinations[index].coupling;
-        let runs =
-            |member: &AxisNumber| *member == coupling.leader() || !self.axes[*member].parameters.takes_masters_homing;
+        let leader = coupling.leader();
+        let runs = |member: &AxisNumber| *member == leader || !self.axes[*member].parameters.takes_masters_homing;
         let members: Vec<AxisNumber> = coupling.members().filter(runs).collect();
         // HG-10, HG-23: only drives that home by themselves begin at once.
         let at_once = coupling.followers().any(|slave| self.axes[slave].parameters.homes_at_once)
@@ -71,9 +92,12 @@ impl State {
                 .all(|member| self.intelligent.contains(*member) && !self.axes[*member].parameters.homing.by_the_cnc);
         for member in &members {
             // HG-29: nothing is absolute until all have been homed.
-            if !self.axes[*member].parameters.homing.disabled {
-                self.axes[*member].homed = false;
+            let state = &mut self.axes[*member];
+            if !state.parameters.homing.disabled && std::mem::take(&mut state.homed) {
+                let homed = axis_signal(*member, axis_from_cnc::homed, true);
+                state.causes.homed = self.log.note_one(Place::Axis(*member), Why::ReferenceLost, homed, cause);
             }
+            self.axes[*member].waits_for_others = *member != leader;
         }
         if at_once {
             self.combinations[index].homes_at_once = true;
@@ -84,6 +108,15 @@ impl State {
     }
 
     fn end_chain(&mut self, chain: &Chain) {
+        // HG-29: from here on the differences of all count from P-AXIS-00073.
+        let Self { combinations, axes, .. } = self;
+        for member in &chain.members {
+            if std::mem::take(&mut axes[*member].waits_for_others) {
+                for one in &mut *combinations {
+                    one.coupling.value_shifted(*member, Position::ZERO, &AxesView(axes));
+                }
+            }
+        }
         let Some(index) = chain.members.first().and_then(|first| self.combination_of(*first)) else { return };
         let view = AxesView(&self.axes);
         let one = &mut self.combinations[index];
@@ -139,16 +172,18 @@ impl State {
             Some(run) => run,
             None => {
                 let event = self.log.note_plain(Place::Axis(number), why, cause);
-                (axis.causes.homing, axis.causes.homed) = (event, event);
-                axis.homed = false;
+                axis.causes.homing = event;
+                if std::mem::take(&mut axis.homed) {
+                    axis.causes.homed = event;
+                }
                 Run::begin(axis.setpoint.position, &axis.feedback, event)
             }
         };
         let rests = axis.setpoint.is_at_rest();
         let (motion, changed) = run.step(&homing, &axis.feedback, rests, axis.shift, &mut self.log.taken.0[HOMING]);
         if let Some(changed) = changed {
-            let input = Input::Length(Quantity::Position, number, axis.actual());
-            run.cause = self.log.note_one(Place::Axis(number), changed, input, run.cause);
+            let inputs = inputs_of(number, changed, &homing, axis.shown(axis.actual()));
+            run.cause = self.log.note(Place::Axis(number), changed, inputs, run.cause);
         }
         let travelled = (axis.setpoint.position - run.start).abs();
         let is_too_far = axis.parameters.is_slave && homing.farthest.is_some_and(|farthest| travelled > farthest);
@@ -157,8 +192,10 @@ impl State {
         axis.motion = Some(motion);
         axis.run = Some(run);
         if is_too_far {
-            let input = Input::Length(Quantity::Distance, number, travelled);
-            let event = self.log.note_one(Place::Axis(number), Why::HomingAborted, input, run.cause);
+            let farthest = homing.farthest.map(|at| Input::Datum(284, Some(number), tenths(at)));
+            let travelled = Input::Length(Quantity::Distance, number, travelled);
+            let inputs = [travelled, farthest.unwrap_or(Input::None), Input::None];
+            let event = self.log.note(Place::Axis(number), Why::HomingAborted, inputs, run.cause);
             self.pending.raise(of_axis(messages::HOMING_TRAVEL, number), None, event);
             self.axis_error(number, AxisError::Resettable, event);
             return false;
@@ -169,7 +206,8 @@ impl State {
         run.end(&mut self.log.taken.0[HOMING]);
         // The movement back was in the old reference.
         (axis.run, axis.motion) = (None, None);
-        let event = self.log.note_plain(Place::Axis(number), Why::Homed, run.cause);
+        let input = Input::Length(Quantity::Position, number, axis.shown(axis.actual()));
+        let event = self.log.note_one(Place::Axis(number), Why::Homed, input, run.cause);
         self.axes[number].causes.homing = event;
         self.refer(number, homing.position - mark, event);
         self.refer_slaves(number, event);
@@ -189,7 +227,8 @@ impl State {
             let parameters = &self.axes[slave].parameters;
             if parameters.takes_masters_homing {
                 let by = parameters.homing.position + beyond - self.axes[slave].actual();
-                let event = self.log.note_plain(Place::Axis(slave), Why::HomedWithMaster, cause);
+                let takes = Input::Datum(74, Some(slave), 1.0);
+                let event = self.log.note_one(Place::Axis(slave), Why::HomedWithMaster, takes, cause);
                 self.refer(slave, by, event);
             }
         }
@@ -206,5 +245,22 @@ impl State {
         for one in combinations {
             one.coupling.value_shifted(number, by, &AxesView(axes));
         }
+    }
+}
+
+/// What a transition of a run has tested: the parameters that decide, and where the axis was. No signal shows its cam.
+fn inputs_of(axis: AxisNumber, why: Why, homing: &Homing, actual: Position) -> [Input; 3] {
+    let datum = |number, is: bool| Input::Datum(number, Some(axis), f64::from(u8::from(is)));
+    let cam = datum(156, !homing.with_cam);
+    let reversal = datum(157, !homing.reverses);
+    let zero_pulse = datum(84, !homing.with_zero_pulse);
+    let here = Input::Length(Quantity::Position, axis, actual);
+    match why {
+        Why::WithoutCam => [cam, zero_pulse, here],
+        Why::WithoutSwitch if homing.with_cam => [reversal, zero_pulse, here],
+        Why::WithoutSwitch => [cam, zero_pulse, here],
+        Why::Reverses | Why::WithoutReversal => [reversal, here, Input::None],
+        Why::CamEdge => [zero_pulse, here, Input::None],
+        _ => [here, Input::None, Input::None],
     }
 }

@@ -78,6 +78,16 @@ impl Run {
         Self { phase: Phase::Begins, start, mark: feedback.encoders[0].value, cause }
     }
 
+    /// The event with which its phase began.
+    pub(in crate::isg) fn cause(&self) -> EventId {
+        self.cause
+    }
+
+    /// Its phase in words.
+    pub(in crate::isg) fn phase_text(&self) -> &'static str {
+        text(self.phase)
+    }
+
     /// Whether the axis goes back to its reference.
     pub(super) fn goes_back(&self) -> bool {
         self.phase == Phase::Back

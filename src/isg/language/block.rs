@@ -30,6 +30,8 @@ pub struct Block {
     pub spindle: Option<f64>,
     /// Axes and their values; empty in a block with G04 or G74.
     pub axes: Vec<(String, f64)>,
+    /// The signs that stand directly behind the name of an axis, as in `C-90`: the direction of a modulo axis. They are in the values, too.
+    pub signs: Vec<(String, Sign)>,
     /// G74: axes and their place in the order. Equal numbers are homed together.
     pub homing: Vec<(String, u32)>,
     /// G04, `#TIME`.
@@ -40,6 +42,25 @@ pub struct Block {
     pub end: Option<End>,
     /// Messages of class 1: 20685, 21111. The block is executed.
     pub warnings: Vec<Fault>,
+}
+
+/// A sign directly behind the name of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Sign {
+    /// `C+90`
+    Plus,
+    /// `C-90`
+    Minus,
+}
+
+impl Sign {
+    pub(super) const fn of(letter: Option<char>) -> Option<Self> {
+        match letter {
+            Some('+') => Some(Self::Plus),
+            Some('-') => Some(Self::Minus),
+            _ => None,
+        }
+    }
 }
 
 /// Where a block stands.

@@ -80,11 +80,12 @@ pub(super) fn compose(words: &[Word], scope: &mut Scope<'_>) -> Result<Composed,
                     return Err(twice(name, *at));
                 }
             }
-            WordKind::Axis(name, value) => {
+            WordKind::Axis(name, sign, value) => {
                 if block.axes.iter().any(|(other, _)| other == name) {
                     return Err(twice(name, *at));
                 }
                 block.axes.push((name.clone(), evaluate(value, scope)?));
+                block.signs.extend(sign.map(|sign| (name.clone(), sign)));
             }
             WordKind::Time(value) => time = Some((evaluate(value, scope)?, *at)),
             WordKind::Assign(place, value) => {
@@ -113,7 +114,7 @@ fn twice(name: &str, at: usize) -> Error {
 }
 
 fn place_of(words: &[Word], axis: &str) -> usize {
-    words.iter().find(|word| matches!(&word.kind, WordKind::Axis(name, _) if name == axis)).map_or(0, |word| word.at)
+    words.iter().find(|word| matches!(&word.kind, WordKind::Axis(name, ..) if name == axis)).map_or(0, |word| word.at)
 }
 
 /// G04 stands alone in its block. Its time is written directly or with the first main axis; further axes are ignored with a warning.

@@ -1,5 +1,6 @@
 //! A block as it was read, before its expressions have values.
 
+use super::block::Sign;
 use super::expression::{Expression, Place};
 use super::head::Target;
 use super::link::LinkOff;
@@ -26,7 +27,7 @@ pub(super) enum WordKind {
     G(u32),
     M(u32),
     Value(Address, Expression),
-    Axis(String, Expression),
+    Axis(String, Option<Sign>, Expression),
     /// The time directly behind G04.
     Time(Expression),
     Assign(Place, Expression),
@@ -182,7 +183,7 @@ impl WordKind {
     fn for_each_variable(&self, call: &mut dyn FnMut(&str)) {
         match self {
             Self::G(_) | Self::M(_) | Self::Call { .. } | Self::Goto(_) => {}
-            Self::Value(_, value) | Self::Axis(_, value) | Self::Time(value) => value.for_each_variable(call),
+            Self::Value(_, value) | Self::Axis(_, _, value) | Self::Time(value) => value.for_each_variable(call),
             Self::Assign(place, value) => {
                 place.for_each_variable(call);
                 value.for_each_variable(call);

@@ -2,6 +2,7 @@
 //!
 //! A value behind an address is an expression, with or without `=`, as published examples have it: `X20`, `X=47`, `X[P1 + 2]`, `X SIN[P1 * 5]`.
 
+use super::block::Sign;
 use super::cursor::Cursor;
 use super::expression::{expression, is_place, place};
 use super::fault::{BEHIND_CALL, Error, FaultCode, JUMP_TARGET};
@@ -131,9 +132,10 @@ fn axis<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<Wo
     if behind.eat("=") && behind.peek() != Some('=') {
         let value = expression(&mut behind)?;
         *cursor = behind;
-        return Ok(WordKind::Axis(name.to_owned(), value));
+        return Ok(WordKind::Axis(name.to_owned(), None, value));
     }
     *cursor = start.moved(start.at() + 1);
+    let sign = Sign::of(cursor.peek());
     let value = expression(cursor).map_err(|error| {
         // The value is wrong, or what looks like the name of an axis has none.
         let is_name = name[1..].starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == '_');
@@ -146,7 +148,7 @@ fn axis<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<Wo
         );
         Error::syntax(start.at(), text)
     })?;
-    Ok(WordKind::Axis(name[..1].to_owned(), value))
+    Ok(WordKind::Axis(name[..1].to_owned(), sign, value))
 }
 
 /// `LL NAME`, `L NAME`, `L "NAME"`, `L4712`.

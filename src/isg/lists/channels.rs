@@ -5,6 +5,7 @@
 //! - Without P-CHAN-00003, all axes of the list belong to the channel. With it, that many, gaps in the index not counted; another number
 //!   of axes is an error, and the smaller number acts. A gantry slave is an error also beyond that number.
 //! - A gantry slave in a channel (21020), an axis with the number 0, and an axis that another channel or index has, are left out.
+//! - P-CHAN-00108 with another value than its two, 0 and −1 is an error, and 100 acts: of two units none is the nearest.
 //! - Group 0: pairs without both numbers do not exist; with one of them they are skipped (20438), as are a slave that is its own master
 //!   (20440), a slave of an earlier pair (20441), and an axis that an earlier pair has in the other role (20442). Whether the axes are in
 //!   the channel is checked when the group is activated.
@@ -22,6 +23,12 @@ const COUNT: Key = Key::new(100_003);
 const GROUPS: Key = Key::new(100_023);
 const FEED: Key = Key::new(100_099);
 const FACTOR: Key = Key::new(100_108);
+
+/// The two values of P-CHAN-00108.
+const IN_MM_PER_MINUTE: f64 = 100.0;
+const IN_M_PER_MINUTE: f64 = 0.1;
+/// It counts as no entry.
+const WITHOUT_UNIT: f64 = -1.0;
 
 /// What a channel must know about an axis.
 #[derive(Clone, Debug)]
@@ -73,7 +80,7 @@ pub(super) fn check(
         preserve_after_program_end: is_set(100_105),
         retain_last_configuration: is_set(100_460),
         has_alias_names: is_set(100_253),
-        feedrate_factor: draft.real(FACTOR),
+        is_feed_in_m_per_minute: draft.real(FACTOR) == IN_M_PER_MINUTE,
         default_feed: draft.real(FEED),
         values: draft.into_values(),
     }
@@ -84,14 +91,27 @@ fn numbers(draft: &mut Draft<'_>, messages: &mut Vec<Message>) {
         messages.push(draft.out_of_range(GROUPS, "1", "1"));
         draft.set_whole(GROUPS, 1);
     }
-    if draft.real(FACTOR) <= 0.0 {
-        messages.push(draft.out_of_range(FACTOR, "more than 0", "100"));
-        draft.set_real(FACTOR, 100.0);
-    }
+    feed_unit(draft, messages);
     if draft.real(FEED) < 0.0 {
         messages.push(draft.out_of_range(FEED, "0 or more", "0"));
         draft.set_real(FEED, 0.0);
     }
+}
+
+/// P-CHAN-00108 names one of two units. 0 is a warning, −1 means no entry, another number is out of its range.
+fn feed_unit(draft: &mut Draft<'_>, messages: &mut Vec<Message>) {
+    let factor = draft.real(FACTOR);
+    if factor == IN_MM_PER_MINUTE || factor == IN_M_PER_MINUTE {
+        return;
+    }
+    if factor != WITHOUT_UNIT {
+        let mut message = draft.out_of_range(FACTOR, "0.1 (F in m/min) or 100 (F in mm/min)", "100");
+        if factor <= 0.0 {
+            message.class = WARNING;
+        }
+        messages.push(message);
+    }
+    draft.set_real(FACTOR, IN_MM_PER_MINUTE);
 }
 
 fn channel_axes(

@@ -199,8 +199,8 @@ pub struct Channel {
     pub preserve_after_program_end: bool,
     /// P-CHAN-00460.
     pub retain_last_configuration: bool,
-    /// P-CHAN-00108: 100 = F in mm/min, 0.1 = m/min.
-    pub feedrate_factor: f64,
+    /// P-CHAN-00108: 0.1 = F in m/min, 100 = mm/min.
+    pub is_feed_in_m_per_minute: bool,
     /// P-CHAN-00099; 0 = none.
     pub default_feed: f64,
     /// P-CHAN-00253: default axis names are A1 to A32.

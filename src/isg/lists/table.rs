@@ -159,8 +159,8 @@ pub static PARAMETERS: &[Parameter] = &[
         .values("0, 1", "0")
         .means("couplings that the program end ends come back with the next program start"),
     channel(108, "prog_start.feedrate_factor", Type::Real64)
-        .values("more than 0", "100")
-        .means("unit of F: 100 = mm/min, 0.1 = m/min"),
+        .values("0.1, 100", "100")
+        .means("unit of F: 100 = mm/min, 0.1 = m/min; −1 is as no entry"),
     channel(253, "use_alias_name_in_ax_list", Type::Boolean)
         .values("0, 1", "0")
         .restart()

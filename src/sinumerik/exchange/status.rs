@@ -24,7 +24,7 @@ pub(in crate::sinumerik) struct Status {
 
 impl Owners {
     /// `$AA_TYP` of an axis as a program of this channel sees it. A program runs in AUTOMATIC or MDA, so the values of JOG do not occur. A synchronous
-    /// axis of a closed grouping is a coupled axis (P-94).
+    /// axis of a closed grouping is a coupled axis (P-103).
     pub(in crate::sinumerik) fn axis_type(&self, axis: AxisNumber, channel: ChannelNumber, is_coupled: bool) -> i32 {
         let of = self.of(axis);
         match of.holder {

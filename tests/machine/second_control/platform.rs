@@ -418,6 +418,10 @@ impl Texts for PlatformTexts {
         };
         vec![Chart::of("drive", "A drive", STEPS, text, |_| None)]
     }
+
+    fn program_ending(&self) -> &'static str {
+        ""
+    }
 }
 
 /// The configuration of a platform: only the names of its axes, all platforms are alike.

@@ -110,16 +110,40 @@ fn settings_of_a_channel_are_read() {
             && !of.retain_last_configuration
             && !of.has_alias_names
     );
-    assert_eq!((of.feedrate_factor.to_string(), of.default_feed.to_string()), ("100".to_owned(), "0".to_owned()));
+    assert_eq!((of.is_feed_in_m_per_minute, of.default_feed.to_string()), (false, "0".to_owned()));
     let set = channel(
         "synchro_data.restore_coupling_after_reset 1\nsynchro_data.preserve_coupling_after_prog_end 1\nretain_last_ax_config 1\n\
         prog_start.feedrate_factor 0.1\nprog_start.feedrate 250\n",
     );
     let of = &set.channels[0];
     assert!(of.restore_after_reset && of.preserve_after_program_end && of.retain_last_configuration);
-    assert_eq!((of.feedrate_factor.to_string(), of.default_feed.to_string()), ("0.1".to_owned(), "250".to_owned()));
+    assert_eq!((of.is_feed_in_m_per_minute, of.default_feed.to_string()), (true, "250".to_owned()));
     assert_eq!(of.value("P-CHAN-00104").and_then(crate::control::Value::whole), Some(1));
-    let bad = channel("grp_anzahl 2\nprog_start.feedrate_factor 0\nprog_start.feedrate -1\n");
-    assert_eq!(codes(&bad.messages), ["P-CHAN-00023 3 -", "P-CHAN-00108 3 -", "P-CHAN-00099 3 -"]);
-    assert!(bad.messages[1].text.ends_with("found 0, allowed more than 0, used 100 (channel.lis:2)"));
+    let bad = channel("grp_anzahl 2\nprog_start.feedrate -1\n");
+    assert_eq!(codes(&bad.messages), ["P-CHAN-00023 3 -", "P-CHAN-00099 3 -"]);
+}
+
+/// P-CHAN-00108 is 0.1 or 100; 0 and less is a warning, -1 is as no entry, and 100 acts.
+#[test]
+fn the_unit_of_the_feed_is_one_of_two() {
+    for (value, code) in [
+        ("0.1", None),
+        ("100", None),
+        ("-1", None),
+        ("0", Some("P-CHAN-00108 1 -")),
+        ("-2", Some("P-CHAN-00108 1 -")),
+        ("1", Some("P-CHAN-00108 3 -")),
+        ("1000", Some("P-CHAN-00108 3 -")),
+    ] {
+        let started = channel(&format!("prog_start.feedrate_factor {value}\n"));
+        assert_eq!(codes(&started.messages), Vec::from_iter(code), "{value}");
+        let of = &started.channels[0];
+        let used = of.value("P-CHAN-00108").and_then(crate::control::Value::number);
+        let expected = if value == "0.1" { 0.1 } else { 100.0 };
+        assert_eq!(used.map(|used| used.to_string()), Some(expected.to_string()), "{value}");
+        assert_eq!(of.is_feed_in_m_per_minute, value == "0.1", "{value}");
+    }
+    let zero = channel("prog_start.feedrate_factor 0\n");
+    let text = "found 0, allowed 0.1 (F in m/min) or 100 (F in mm/min), used 100 (channel.lis:1)";
+    assert!(zero.messages[0].text.ends_with(text), "{}", zero.messages[0].text);
 }

@@ -11,7 +11,7 @@ use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::program::path::Stage;
-use crate::sinumerik::program::positioning::{Handwheel, Positioning};
+use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
 use crate::sinumerik::program::state::{ProgramState, Run};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
 use crate::sinumerik::single_axis::state::OrderedBy;
@@ -405,7 +405,7 @@ impl Look<'_> {
     }
 
     /// With FDA = 0 only pulses of its handwheel move the axis.
-    fn pulses_of_override(self, positioning: &Positioning) -> Option<Condition> {
+    fn pulses_of_override(self, positioning: &AxisPositioning) -> Option<Condition> {
         let axis = &self.state.axes[positioning.axis];
         let is_moved = positioning.handwheel == Handwheel::Way && axis.by_handwheel.is_some_and(|one| one.is_active);
         let way = (positioning.target - axis.setpoint.position).increments().signum();

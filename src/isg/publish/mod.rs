@@ -1,13 +1,16 @@
-//! The CNC's half of the HLI, the variables, and the events behind both.
+//! The CNC's half of the HLI, and the variables. `causes.rs` has the events behind the signals, `conditions.rs` what they wait for.
+
+mod causes;
+mod conditions;
 
 use std::sync::Arc;
 
-use super::hli::{AxisFromCnc, FromCnc, axis_from_cnc, channel_from_cnc};
-use super::rules::Why;
-use super::state::{Axis, AxisError, State};
+use super::channel::Channel;
+use super::hli::{AxisFromCnc, FromCnc};
+use super::state::{AxisError, State};
 use crate::image::View;
-use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AxisValues, EventId, FaultName, Input, Place, Variables};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{AxisValues, Variables};
 
 /// The axis states of the HLI.
 const READY: u8 = 1;
@@ -33,6 +36,7 @@ impl State {
             bits.set_feed_override_request(1000);
             bits.set_feed_override_state(channel.inputs.feed_override);
             bits.set_block(channel.block());
+            from_cnc.skips[channel.number].set_program_block_ignore_state(channel.inputs.skipped);
         }
         for channel in &self.channels {
             let groups = channel.groups.iter().filter(|group| group.number < 8);
@@ -86,7 +90,7 @@ impl State {
         let axis = &self.axes[number];
         if axis.error.is_some() {
             ERROR
-        } else if !axis.is_powered() || !axis.units.feed_enable || self.is_held(number) {
+        } else if !axis.is_powered() || !axis.units.feed_enable || self.holder(number).is_some() {
             HOLD
         } else if !axis.setpoint.is_at_rest() {
             ACTIVE
@@ -95,10 +99,11 @@ impl State {
         }
     }
 
-    /// Whether the channel of an axis holds a movement of it.
-    fn is_held(&self, number: AxisNumber) -> bool {
+    /// The channel that holds a movement of an axis.
+    fn holder(&self, number: AxisNumber) -> Option<&Channel> {
         let members = self.coupled_with(number);
-        self.channels.iter().any(|channel| channel.is_held() && members.iter().any(|member| channel.moves(*member)))
+        let moves = |channel: &&Channel| members.iter().any(|member| channel.moves(*member));
+        self.channels.iter().filter(|channel| channel.is_held()).find(moves)
     }
 
     fn axis_values(&self, number: AxisNumber) -> AxisValues {
@@ -108,10 +113,10 @@ impl State {
         };
         let hard = self.combinations.iter().filter(|one| !one.coupling.is_open()).map(|one| &one.coupling);
         let soft = self.channels.iter().flat_map(|channel| channel.couplings());
-        let position = axis.actual();
+        let position = axis.shown(axis.actual());
         AxisValues {
             position,
-            setpoint: axis.setpoint.position,
+            setpoint: axis.shown(axis.setpoint.position),
             // mm/min, or rev/min of a rotary axis.
             velocity: axis.feedback.velocity / Position::PER_USER_UNIT * 60.0
                 / if axis.parameters.is_rotary { 360.0 } else { 1.0 },
@@ -127,93 +132,5 @@ impl State {
     fn distance_to_go(&self, number: AxisNumber) -> Position {
         let target = self.channels.iter().find_map(|channel| channel.target(number));
         target.map_or(Position::ZERO, |target| target - self.axes[number].setpoint.position)
-    }
-
-    /// The event behind a bit of an axis.
-    pub(super) fn axis_cause(&mut self, number: AxisNumber, byte: u16, bit: u8) -> EventId {
-        let causes = self.axes[number].causes;
-        let is = |signal: crate::image::Signal| (signal.byte, signal.bit) == (byte, bit);
-        let cause = if is(axis_from_cnc::drive_enable_state) {
-            causes.drive_enable
-        } else if is(axis_from_cnc::feed_enable_state) {
-            causes.feed_enable
-        } else if is(axis_from_cnc::gantry_on_state) {
-            causes.gantry_on
-        } else if is(axis_from_cnc::drive_ready) {
-            return self.ready_cause(number);
-        } else if is(axis_from_cnc::homed) {
-            causes.homed
-        } else if is(axis_from_cnc::homing) {
-            causes.homing
-        } else if is(axis_from_cnc::error) || is(axis_from_cnc::error_not_resettable) {
-            causes.error
-        } else if is(axis_from_cnc::gantry_coupled) {
-            causes.coupled
-        } else if is(axis_from_cnc::in_position) {
-            return self.motion_cause(number);
-        } else if byte == axis_from_cnc::axis_state.byte {
-            if self.axes[number].error.is_some() {
-                causes.error
-            } else if self.axis_state(number) == READY {
-                self.log.note_plain(Place::Axis(number), Why::Rests, causes.motion)
-            } else {
-                return self.motion_cause(number);
-            }
-        } else {
-            self.power_on
-        };
-        if cause.is_some() { cause } else { self.power_on }
-    }
-
-    /// Why a drive is ready or not, as it is now.
-    fn ready_cause(&mut self, number: AxisNumber) -> EventId {
-        let Axis { feedback, causes, .. } = &self.axes[number];
-        let (place, parent) = (Place::Axis(number), causes.ready);
-        if feedback.drive_fault {
-            return self.log.note_one(place, Why::DriveFault, Input::Fault(FaultName::DriveFault), parent);
-        }
-        let why = if feedback.drive_ready { Why::DriveStarted } else { Why::DriveNotReady };
-        self.log.note_plain(place, why, self.power_on)
-    }
-
-    /// Why an axis is in position, moves or is held, as it is now.
-    fn motion_cause(&mut self, number: AxisNumber) -> EventId {
-        let axis = &self.axes[number];
-        let parent = axis.causes.motion;
-        let why = if !axis.is_powered() {
-            Why::DriveNotReady
-        } else if !axis.units.feed_enable || self.is_held(number) {
-            Why::Held
-        } else if !axis.setpoint.is_at_rest() {
-            Why::Moves
-        } else if axis.is_in_position() {
-            Why::Stands
-        } else {
-            Why::LeavesPosition
-        };
-        let quantity = crate::variables::Quantity::Deviation;
-        let input = Input::Length(quantity, number, axis.following_error());
-        self.log.note_one(Place::Axis(number), why, input, parent)
-    }
-
-    /// The event behind a bit of a channel.
-    pub(super) fn channel_cause(&self, number: ChannelNumber, byte: u16, bit: u8) -> EventId {
-        let Some(channel) = self.channels.iter().find(|channel| channel.number == number) else {
-            return self.power_on;
-        };
-        let is = |signal: crate::image::Signal| (signal.byte, signal.bit) == (byte, bit);
-        let causes = &channel.causes;
-        let cause = if is(channel_from_cnc::error) {
-            causes.error
-        } else if is(channel_from_cnc::program_active) || is(channel_from_cnc::program_completed) {
-            causes.program
-        } else if byte == channel_from_cnc::state.byte {
-            causes.program.max(causes.error)
-        } else if byte >= channel_from_cnc::block.byte {
-            causes.block.max(causes.program)
-        } else {
-            causes.feed_override
-        };
-        if cause.is_some() { cause } else { self.power_on }
     }
 }
