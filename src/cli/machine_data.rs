@@ -238,9 +238,11 @@ fn groups(findings: &[&Finding], all: bool, output: &mut Output) {
     for (name, group) in groups {
         let values: usize = group.iter().map(|finding| finding.values).sum();
         output.line(format!("  {name}: {} data, {values} values", group.len()));
-        if all {
-            group.into_iter().for_each(|finding| item("    ", finding, output));
-        }
+        // What is perhaps mistyped is shown in any case.
+        group
+            .into_iter()
+            .filter(|finding| all || !finding.cure.is_empty())
+            .for_each(|finding| item("    ", finding, output));
     }
 }
 

@@ -327,6 +327,11 @@ pub trait Control: Send + Sync + Debug {
     /// The machine data or parameters, by number.
     fn data(&self) -> &dyn Data;
 
+    /// A longer text of a message, [`Parameter::OfControl`](crate::variables::Parameter::OfControl). The default is a control without them.
+    fn message_text(&self, _index: u32) -> &str {
+        ""
+    }
+
     /// The texts of the control.
     fn texts(&self) -> &'static dyn Texts;
 
@@ -384,6 +389,11 @@ pub trait Texts: Sync {
 
     /// Its interface.
     fn interface(&self) -> &'static Interface;
+
+    /// How it names the first axis and the first channel where no machine gives names.
+    fn first_names(&self) -> (&'static str, &'static str) {
+        ("AX1", "CHAN1")
+    }
 
     /// Whether a signal has an effect: the control writes it, or reads it if another side writes it. The default is all signals.
     fn is_modelled(&self, _signal: &Signal) -> bool {

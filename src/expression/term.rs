@@ -100,7 +100,7 @@ fn named_value(moment: &Moment<'_>, index: usize) -> f64 {
 
 fn parameter(parameter: Parameter) -> f64 {
     match parameter {
-        Parameter::None | Parameter::Text(_) => 0.0,
+        Parameter::None | Parameter::Text(_) | Parameter::OfControl(_) => 0.0,
         Parameter::Channel(channel) => f64::from(channel.number()),
         Parameter::Axis(axis) => f64::from(axis.number()),
         Parameter::Number(number) => number as f64,

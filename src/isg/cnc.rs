@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::hli::{HLI, ToCnc, axis_to_cnc};
 use super::inputs::axis_signal;
 use super::lists::{Code, Lists, Message};
-use super::pending::of_axis;
+use super::pending::{Detail, of_axis};
 use super::rules::Why;
 use super::state::{Axis, AxisCauses, AxisError, State, Units};
 use super::texts::TEXTS;
@@ -23,7 +23,7 @@ use crate::source::{Place as FilePlace, Problem};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
 use crate::variables::{
     AlarmNumber, DatumValue, EventId, Events, FaultName, Input, Parameter, ParameterValue, Place, RaisedAlarm,
-    Variables, short_text,
+    Variables,
 };
 
 /// A control of the ISG kernel.
@@ -61,7 +61,7 @@ impl State {
         }
         self.starts = true;
         for message in &started.messages {
-            self.raise_at_start(message, event);
+            self.raise_check(message, Why::StartUpCheck, event);
         }
     }
 
@@ -79,8 +79,8 @@ impl State {
         self.start_couplings();
     }
 
-    /// A message of the start-up checks, at the start or because of an event later.
-    pub(super) fn raise_at_start(&mut self, message: &Message, cause: EventId) {
+    /// A message of the checks of the lists.
+    pub(super) fn raise_check(&mut self, message: &Message, why: Why, cause: EventId) {
         let number = match message.code {
             Code::Number(number) => AlarmNumber(number),
             Code::Parameter(number) => messages::of_parameter(number),
@@ -89,13 +89,13 @@ impl State {
         let other = message.other_axis.and_then(|axis| self.axis_of(axis));
         let channel = message.channel.and_then(|channel| ChannelNumber::new(u8::try_from(channel).ok()?));
         let place = axis.map(Place::Axis).or_else(|| channel.map(Place::Channel)).unwrap_or(Place::Nck);
-        let event = self.log.note_plain(place, Why::StartUpCheck, cause);
-        // About a channel: channel, entry, axis, as at run time channel, block, axis. About an axis: axis, other axis, entry.
-        let entry = Parameter::Text(short_text(&place_of(message)));
+        let event = self.log.note_plain(place, why, cause);
+        // About a channel: channel, no block, axis, text, as at run time. About an axis: axis, other axis, text.
+        let text = self.pending.parameter(Detail::Text(message.text.clone()));
         let [axis, second] = [axis, other].map(|axis| axis.map_or(Parameter::None, Parameter::Axis));
         let parameters = match channel {
-            Some(channel) => [Parameter::Channel(channel), entry, axis, second],
-            None => [axis, second, entry, Parameter::None],
+            Some(channel) => [Parameter::Channel(channel), Parameter::None, axis, text],
+            None => [axis, second, text, Parameter::None],
         };
         self.pending.raise_as(RaisedAlarm { number, place, parameters }, other, message.is_warning(), event);
     }
@@ -189,7 +189,7 @@ impl State {
             self.adopt(&started, false, event);
             self.adopt_offsets();
             for message in started.messages.iter().filter(|message| !before.contains(message)) {
-                self.raise_at_start(message, event);
+                self.raise_check(message, Why::UpdateCheck, event);
             }
         }
         event
@@ -200,7 +200,20 @@ impl Control for Cnc {
     fn check(&self, command: &ControlCommand) -> Result<(), Problem> {
         match command {
             ControlCommand::Store { target, value } => {
-                self.0.lists.clone().set(target, value, &FilePlace::file("scenario")).map(|_| ())
+                let set = self.0.lists.clone().set(target, value, &FilePlace::file("scenario"));
+                // The caller knows the line.
+                set.map(|_| ()).map_err(|problem| Problem { place: None, ..problem })
+            }
+            ControlCommand::SelectProgram { channel, .. } if !self.has_channel(*channel) => {
+                let channels: Vec<String> =
+                    self.0.channels.iter().map(|channel| format!("channel_{}", channel.number)).collect();
+                Err(Problem::new(
+                    format!("expected a channel of the machine, found channel {channel}"),
+                    match channels.is_empty() {
+                        true => "add a channel list to the machine".to_owned(),
+                        false => format!("the machine has {}", channels.join(", ")),
+                    },
+                ))
             }
             ControlCommand::SelectProgram { path, .. } if !self.0.programs.contains_key(path) => Err(Problem::new(
                 format!("expected a program, found `{path}`"),
@@ -273,7 +286,7 @@ impl Control for Cnc {
                 [_, second] => u8::try_from(second).ok(),
             };
             let value = of.word.is_none().then_some(of.value);
-            Activated { datum: DatumValue { number: of.number, place: of.place, index, value }, event }
+            Activated { datum: DatumValue { number: of.number, place: of.place, index, value, word: of.word }, event }
         };
         self.0.activated.drain(..).map(activated).collect()
     }
@@ -362,6 +375,10 @@ impl Control for Cnc {
         self
     }
 
+    fn message_text(&self, index: u32) -> &str {
+        self.0.pending.text(index)
+    }
+
     fn texts(&self) -> &'static dyn Texts {
         &TEXTS
     }
@@ -403,17 +420,6 @@ impl Control for Cnc {
     fn as_any(&self) -> &dyn Any {
         self
     }
-}
-
-/// Letters of an entry in a message; of a longer name the end, with the line.
-const ENTRY: usize = 24;
-
-/// The entry of a message: name of the file and line. A long path would leave no room for them.
-fn place_of(message: &Message) -> String {
-    let place = message.place.to_string();
-    let place = place.rsplit(['/', '\\']).next().unwrap_or_default();
-    let beyond = place.chars().count().saturating_sub(ENTRY);
-    place.chars().skip(beyond).collect()
 }
 
 fn foreign(what: &str, cure: &str) -> Problem {

@@ -12,7 +12,7 @@ use super::lists::{self, AxisKind, Lists, OnMode, Started};
 use super::parameters::{AxisParameters, Clearing, Homing, Modulo, acceleration, length, velocity};
 use super::state::{Axis, Cycle, State};
 use crate::control::{
-    AxisHints, Class, Configuration, EncoderModel, Examined, Finding, Log, Opened, Settings, Site, StoredDatum, Value,
+    AxisHints, Configuration, EncoderModel, Examined, Finding, Log, Opened, Settings, Site, StoredDatum, Value,
 };
 use crate::image::{Names, Profile};
 use crate::motion::coupling::TwoStage;
@@ -25,6 +25,8 @@ use crate::variables::{EventId, ParameterValue, Place, short_text};
 pub struct ParameterLists {
     lists: Lists,
     started: Started,
+    /// What is read, but not as it seems.
+    remarks: Vec<Finding>,
     /// All names that axes can have in `plant.toml`.
     names: Vec<String>,
 }
@@ -35,8 +37,8 @@ impl ParameterLists {
     /// # Errors
     /// Something cannot be read, with file and line, or there are more axes than places for them.
     pub fn read(files: &[(&str, &[u8])]) -> Result<Self, Problem> {
-        let lists = Lists::read(files)?;
-        Self::of(lists)
+        let (lists, remarks) = Lists::read_with_remarks(files)?;
+        Self::of(lists, remarks)
     }
 
     /// Reads the lists of a folder, or one list.
@@ -50,7 +52,7 @@ impl ParameterLists {
         Self::read(&files)
     }
 
-    fn of(mut lists: Lists) -> Result<Self, Problem> {
+    fn of(mut lists: Lists, remarks: Vec<Finding>) -> Result<Self, Problem> {
         let started = lists.start();
         let most = usize::from(AxisNumber::MAX);
         if started.axes.len() > most {
@@ -64,7 +66,7 @@ impl ParameterLists {
             names.push(format!("ax{}", axis.number));
             names.extend(started.names(axis).into_iter().map(str::to_owned));
         }
-        Ok(Self { lists, started, names })
+        Ok(Self { lists, started, remarks, names })
     }
 }
 
@@ -132,7 +134,7 @@ impl Configuration for ParameterLists {
         for StoredDatum { target, place, value } in data {
             self.lists.set(target, value, place).map_err(|problem| problem.at(place))?;
         }
-        *self = Self::of(self.lists.clone())?;
+        *self = Self::of(self.lists.clone(), self.remarks.clone())?;
         Ok(())
     }
 
@@ -212,19 +214,8 @@ impl Configuration for ParameterLists {
                 ..AxisHints::default()
             }
         });
-        let findings = self.findings();
+        let findings = lists::findings(&self.lists, &self.started.messages, self.remarks.clone());
         Ok(Opened { control: Box::new(control), names, axes, groupings, findings })
-    }
-}
-
-impl ParameterLists {
-    /// The messages of the start, as findings about the files.
-    fn findings(&self) -> Vec<Finding> {
-        let of = |message: &lists::Message| Finding {
-            place: Some(message.place.clone()),
-            ..Finding::new(Class::AlarmAtPowerOn, message.to_string(), "")
-        };
-        self.started.messages.iter().map(of).collect()
     }
 }
 

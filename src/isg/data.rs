@@ -4,7 +4,7 @@ use super::cnc::Cnc;
 use super::lists;
 use crate::control::{Data, Datum, Kind, Owner, Value};
 use crate::units::ChannelNumber;
-use crate::variables::{DatumValue, Place};
+use crate::variables::{DatumValue, Place, short_text};
 
 impl Data for Cnc {
     fn stored(&self, number: u32, owner: Owner, _: u8) -> Option<Datum> {
@@ -34,7 +34,15 @@ impl Data for Cnc {
         };
         let number = parameter.number();
         let written = self.0.lists.written(target);
-        let value = written.or_else(|| self.0.parameter_in_effect(number, axis));
-        Some(DatumValue { number, place, index: None, value })
+        let word = match written {
+            Some(Value::Text(word)) => Some(short_text(word)),
+            _ => None,
+        };
+        let value = match written {
+            Some(Value::Text(_)) => None,
+            Some(written) => written.number(),
+            None => self.0.parameter_in_effect(number, axis),
+        };
+        Some(DatumValue { number, place, index: None, value, word })
     }
 }

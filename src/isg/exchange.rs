@@ -4,11 +4,12 @@ use super::channel::Member;
 use super::language::{AxisReference, AxisRequest, Conflicts, GantryTargets, PutTargets};
 use super::links::Refused;
 use super::messages;
-use super::program::{unknown, value};
+use super::pending::Detail;
+use super::program::value;
 use super::rules::Why;
 use super::state::{AxesView, State};
 use crate::units::AxisNumber;
-use crate::variables::{EventId, Parameter, Place, short_text};
+use crate::variables::{EventId, Place};
 
 impl State {
     /// `#GANTRY ON` and `#GANTRY OFF`.
@@ -35,11 +36,7 @@ impl State {
             }
             let in_group = |axis: &AxisNumber| self.channels.iter().any(|channel| channel.is_in_group(*axis));
             if on && let Some(axis) = one.coupling.followers().find(in_group) {
-                return Err(Refused(
-                    messages::NC_VALUE,
-                    Parameter::Text(short_text("the axis is coupled")),
-                    Parameter::Axis(axis),
-                ));
+                return Err(self.coupled(axis));
             }
         }
         for combination in combinations {
@@ -48,6 +45,12 @@ impl State {
             }
         }
         Ok(())
+    }
+
+    /// An axis of an active coupling group cannot be taken or given away.
+    fn coupled(&self, axis: AxisNumber) -> Refused {
+        let number = self.axes[axis].parameters.number;
+        value(&format!("axis {number} is coupled in an active coupling group"))
     }
 
     /// Whether an axis moves, or has a movement that is held.
@@ -87,9 +90,7 @@ impl State {
             AxisReference::Number(number) => u16::try_from(*number).ok().and_then(|number| self.axis_of(number)),
         };
         let found = axis.and_then(|axis| self.combinations.iter().position(|one| one.coupling.leader() == axis));
-        found.ok_or_else(|| {
-            Refused(messages::GANTRY_UNKNOWN, Parameter::Text(short_text(&master.to_string())), Parameter::None)
-        })
+        found.ok_or_else(|| Refused(messages::GANTRY_UNKNOWN, Detail::Text(master.bare()), Detail::None))
     }
 
     /// `#CALL AX`: all requests are checked before one acts.
@@ -98,32 +99,37 @@ impl State {
         for (place, request) in requests.iter().enumerate() {
             let before = &requests[..place];
             if before.iter().any(|other| other.name == request.name) {
-                return Err(value(&format!("{} twice", request.name)));
+                return Err(value(&format!("the name {} is given twice", request.name)));
             }
             if before.iter().any(|other| other.number == request.number) {
-                return Err(value(&format!("axis {} twice", request.number)));
+                return Err(value(&format!("axis {} is given twice", request.number)));
             }
             if before.iter().any(|other| other.index == request.index) {
                 return Err(Refused::group(messages::INDEX_TWICE, request.index.into()));
             }
             let number = u16::try_from(request.number).ok();
             let axis = number.and_then(|number| self.axis_of(number));
-            let axis = axis.ok_or_else(|| unknown(&request.number.to_string()))?;
+            let axis = axis.ok_or_else(|| {
+                let text = format!("no axis has the logical number {}", request.number);
+                Refused(messages::AXIS_UNKNOWN, Detail::Text(text), Detail::None)
+            })?;
             let channel = &self.channels[index];
             if channel.axes.iter().any(|member| member.axis == axis) {
                 continue;
             }
             if self.is_coupled_slave(axis) {
-                return Err(Refused::axis(messages::SLAVE_IN_CHANNEL, axis));
+                let text = format!("#CALL AX or #AX REQUEST of axis {}", request.number);
+                return Err(Refused(messages::SLAVE_IN_CHANNEL, Detail::Axis(axis), Detail::Text(text)));
             }
             if self.channels.iter().any(|other| other.axes.iter().any(|member| member.axis == axis)) {
-                return Err(value(&format!("axis {} is elsewhere", request.number)));
+                return Err(value(&format!("axis {} is an axis of another channel", request.number)));
             }
             if channel.axis_named(&request.name).is_some() {
-                return Err(value(&format!("{} exists", request.name)));
+                return Err(value(&format!("the channel has an axis {} already", request.name)));
             }
             let place = u16::try_from(request.index).ok().filter(|place| *place < INDICES);
-            let place = place.ok_or_else(|| value(&format!("index {}", request.index)))?;
+            let place = place
+                .ok_or_else(|| value(&format!("a channel index is 0 to {}, found {}", INDICES - 1, request.index)))?;
             if channel.axes.iter().any(|member| member.index == place) {
                 return Err(Refused::group(messages::INDEX_OCCUPIED, place.into()));
             }
@@ -148,11 +154,7 @@ impl State {
                 .collect(),
         };
         if let Some(axis) = put.iter().copied().find(|axis| channel.is_in_group(*axis)) {
-            return Err(Refused(
-                messages::NC_VALUE,
-                Parameter::Text(short_text("the axis is coupled")),
-                Parameter::Axis(axis),
-            ));
+            return Err(self.coupled(axis));
         }
         self.channels[index].axes.retain(|member| !put.contains(&member.axis));
         Ok(())

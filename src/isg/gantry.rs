@@ -208,7 +208,8 @@ impl State {
             (true, false) => (Why::SoftStageOne, messages::STAGE_1, AxisError::Resettable),
             (true, true) => (Why::SoftStageTwo, messages::STAGE_2, AxisError::Locked),
         };
-        if self.axes[slave].error >= Some(error) {
+        // An error for another reason does not hide the limit; the limit that is exceeded already does.
+        if self.pending.has(messages::STAGE_2, slave) || !is_locked && self.pending.has(messages::STAGE_1, slave) {
             return;
         }
         let is_by_list = !is_soft || self.is_limited_by_list(slave);

@@ -55,7 +55,7 @@ impl State {
         } else {
             let feed = modal.feed * Position::PER_USER_UNIT / 60.0;
             if feed <= 0.0 {
-                return Err(value("no feed"));
+                return Err(value("no feed: neither an F word nor P-CHAN-00099 gives one"));
             }
             Feed::Programmed(feed)
         };

@@ -6,32 +6,33 @@ use super::groups::Group;
 use super::language::{AxisReference, Form, Link, LinkOff, Pair};
 use super::messages;
 use super::parameters::{Clearing, GANTRY_BITS, length, velocity};
-use super::pending::of_axis;
+use super::pending::{Detail, of_axis};
 use super::phases::LinkPhase;
+use super::program::{unknown, value};
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
 use crate::motion::coupling::{Coupling, Follower, Moves, OffsetSource, Realign, Sign, Target, TwoStage};
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, Quantity, RaisedAlarm, short_text};
+use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 
 /// Coupling groups 0 to 6: 0 is of the channel list (SG-14).
 pub(super) const GROUPS: i64 = 7;
 
 /// A refused command: the message, and its third and fourth parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Refused(pub AlarmNumber, pub Parameter, pub Parameter);
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Refused(pub AlarmNumber, pub Detail, pub Detail);
 
 impl Refused {
     pub(super) const fn new(number: AlarmNumber) -> Self {
-        Self(number, Parameter::None, Parameter::None)
+        Self(number, Detail::None, Detail::None)
     }
 
     pub(super) const fn axis(number: AlarmNumber, axis: AxisNumber) -> Self {
-        Self(number, Parameter::Axis(axis), Parameter::None)
+        Self(number, Detail::Axis(axis), Detail::None)
     }
 
     pub(super) fn group(number: AlarmNumber, group: i64) -> Self {
-        Self(number, Parameter::Number(group), Parameter::None)
+        Self(number, Detail::Number(group), Detail::None)
     }
 }
 
@@ -45,16 +46,12 @@ impl State {
             return Err(Refused::group(messages::GROUP_ACTIVE, link.group));
         }
         if link.pairs.len() > PAIRS {
-            return Err(Refused(
-                messages::NC_VALUE,
-                Parameter::Text(short_text("more than 15 pairs")),
-                Parameter::None,
-            ));
+            return Err(value(&format!("a coupling group has at most {PAIRS} pairs, found {}", link.pairs.len())));
         }
         let named: Vec<&str> =
             link.pairs.iter().flat_map(|pair| [&pair.slave, &pair.master]).filter_map(name_of).collect();
         if let Some(name) = named.iter().find(|name| channel.axis_named(name).is_none()) {
-            return Err(Refused(messages::AXIS_UNKNOWN, Parameter::Text(short_text(name)), Parameter::None));
+            return Err(unknown(name));
         }
         channel.definitions.insert(number, link.pairs.clone());
         Ok(())
@@ -115,7 +112,7 @@ impl State {
     fn limits_of_list(&mut self, slave: AxisNumber, cause: EventId) -> Option<TwoStage> {
         let (limits, messages) = self.lists.gantry_pair(self.axes[slave].parameters.number)?;
         for message in &messages {
-            self.raise_at_start(message, cause);
+            self.raise_check(message, Why::PairCheck, cause);
         }
         self.axes[slave].parameters.correction_velocity = velocity(limits.correction_velocity);
         Some(TwoStage::new(Some(length(limits.first.into())), length(limits.second.into())))
@@ -131,38 +128,37 @@ impl State {
         let mut pairs = Vec::with_capacity(definition.len());
         for pair in definition {
             let missing = |reference: &AxisReference| {
-                Refused(
-                    messages::LINK_AXIS_MISSING,
-                    Parameter::Text(short_text(&reference.to_string())),
-                    Parameter::Number(group),
-                )
+                Refused(messages::LINK_AXIS_MISSING, Detail::Text(reference.bare()), Detail::Number(group))
             };
             let find =
                 |reference: &AxisReference| self.referenced(channel, reference).ok_or_else(|| missing(reference));
             let (slave, master) = (find(&pair.slave)?, find(&pair.master)?);
-            let of_group = |number, axis| Refused(number, Parameter::Axis(axis), Parameter::Number(group));
+            let of_pair = |number| Refused(number, Detail::Axis(slave), Detail::Axis(master));
             if channel.index_of(slave).is_some_and(|index| index <= 2) {
                 return Err(Refused::axis(messages::SLAVE_IS_MAIN_AXIS, slave));
             }
             let [one, other] = [master, slave].map(|axis| &self.axes[axis].parameters);
             if one.kind != other.kind {
-                return Err(of_group(messages::TYPES_DIFFER, slave));
+                return Err(of_pair(messages::TYPES_DIFFER));
             }
             if one.mode & !GANTRY_BITS != other.mode & !GANTRY_BITS {
-                return Err(of_group(messages::MODES_DIFFER, slave));
+                return Err(of_pair(messages::MODES_DIFFER));
             }
             if channel.manual.contains(&slave) {
                 return Err(Refused::axis(messages::SLAVE_IN_MANUAL, slave));
             }
-            for coupling in channel.couplings() {
+            let active = channel.groups.iter().flat_map(|group| {
+                group.couplings.iter().map(move |coupling| (Detail::Number(group.number.into()), coupling))
+            });
+            for (other, coupling) in active {
                 if coupling.followers().any(|axis| axis == slave) {
-                    return Err(of_group(messages::ALREADY_SLAVE, slave));
+                    return Err(Refused(messages::ALREADY_SLAVE, Detail::Axis(slave), other));
                 }
                 if coupling.leader() == slave {
-                    return Err(of_group(messages::SLAVE_IS_MASTER, slave));
+                    return Err(Refused(messages::SLAVE_IS_MASTER, Detail::Axis(slave), other));
                 }
                 if coupling.followers().any(|axis| axis == master) {
-                    return Err(of_group(messages::MASTER_IS_SLAVE, master));
+                    return Err(Refused(messages::MASTER_IS_SLAVE, Detail::Axis(master), other));
                 }
             }
             let limits = match pair.form {
@@ -299,18 +295,15 @@ impl State {
             let is_complete = definition.is_some_and(|pairs| {
                 pairs.iter().all(|pair| in_configuration(&pair.slave) && in_configuration(&pair.master))
             });
-            let place = Place::Channel(channel.number);
             let restored = if is_complete {
                 self.switch_on(index, Some(number.into()), Why::GroupRestored, cause)
             } else {
                 let from_end = channel.restored_from_end;
                 let message = if from_end { messages::LINK_NOT_KEPT } else { messages::LINK_NOT_RESTORED };
-                Err(Refused(message, Parameter::Number(number.into()), Parameter::None))
+                Err(Refused::group(message, number.into()))
             };
-            if let Err(Refused(number, third, fourth)) = restored {
-                let parameters = [Parameter::Channel(self.channels[index].number), third, fourth, Parameter::None];
-                let event = self.log.note_plain(place, Why::Raised, cause);
-                self.pending.raise(RaisedAlarm { number, place, parameters }, None, event);
+            if let Err(refused) = restored {
+                self.raise_in_channel(index, None, refused, cause);
                 return false;
             }
         }

@@ -4,6 +4,7 @@ use super::channel::{Channel, Inputs, Member, Modal, Task, Wait};
 use super::hli::{ChannelSkipToCnc, ChannelToCnc, axis_from_cnc, channel_to_cnc};
 use super::inputs::{axis_signal, channel_signal};
 use super::language::Interpreter;
+use super::links::Refused;
 use super::messages;
 use super::parameters::Clearing;
 use super::pending::of_axis;
@@ -13,7 +14,7 @@ use crate::motion::Motion;
 use crate::motion::coupling::Coupling;
 use crate::motion::path::{Overrides, Path, PathLimits};
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm};
+use crate::variables::{EventId, Input, Parameter, Place, RaisedAlarm};
 
 impl State {
     /// Takes the commands of the PLC to a channel.
@@ -112,7 +113,10 @@ impl State {
         }
         for axis in &cleared {
             let is_in_error = axis_signal(*axis, axis_from_cnc::error_not_resettable, false);
-            let cause = self.log.note_one(Place::Axis(*axis), Why::Cleared, is_in_error, event);
+            let is_of_gantry =
+                self.coupled_with(*axis).iter().any(|member| self.pending.has(messages::STAGE_1, *member));
+            let why = if is_of_gantry { Why::Cleared } else { Why::FaultCleared };
+            let cause = self.log.note_one(Place::Axis(*axis), why, is_in_error, event);
             let state = &mut self.axes[*axis];
             state.error = None;
             state.fault_stop = false;
@@ -128,7 +132,7 @@ impl State {
         let channel = &mut self.channels[index];
         if channel.error && !error {
             channel.error = false;
-            channel.causes.error = event;
+            channel.causes.error = self.log.note_plain(place, Why::ErrorCleared, event);
         }
     }
 
@@ -171,7 +175,8 @@ impl State {
             channel.error = true;
             channel.causes.error = cause;
         }
-        if channel.is_active() {
+        // The first error ends it.
+        if matches!(channel.task, Task::Runs | Task::Stands) {
             channel.task = Task::Aborts;
             channel.causes.program = self.log.note_plain(Place::Channel(channel.number), Why::ProgramAborted, cause);
         }
@@ -363,24 +368,22 @@ impl State {
         channel.path_axes = axes;
     }
 
-    /// Raises a message of a channel.
+    /// Raises a message of a channel. `block` is none where no block is the reason.
     pub(super) fn raise_in_channel(
         &mut self,
         index: usize,
-        number: AlarmNumber,
-        more: [Parameter; 3],
-        other: Option<AxisNumber>,
+        block: Option<u32>,
+        Refused(number, third, fourth): Refused,
         cause: EventId,
     ) -> EventId {
         let channel = self.channels[index].number;
         let place = Place::Channel(channel);
-        let number_of_block = match more[0] {
-            Parameter::Number(number) => u32::try_from(number).map_or(Input::None, super::inputs::block),
-            _ => Input::None,
-        };
+        let number_of_block = block.map_or(Input::None, super::inputs::block);
         let event = self.log.note_one(place, Why::Raised, number_of_block, cause);
-        let [second, third, fourth] = more;
-        let alarm = RaisedAlarm { number, place, parameters: [Parameter::Channel(channel), second, third, fourth] };
+        let other = third.axis();
+        let block = block.map_or(Parameter::None, |block| Parameter::Number(block.into()));
+        let [third, fourth] = [third, fourth].map(|detail| self.pending.parameter(detail));
+        let alarm = RaisedAlarm { number, place, parameters: [Parameter::Channel(channel), block, third, fourth] };
         self.pending.raise(alarm, other, event);
         event
     }

@@ -4,10 +4,31 @@ use serde::{Deserialize, Serialize};
 
 use super::messages;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, MessageCount, Parameter, Place, RaisedAlarm};
+use crate::variables::{AlarmNumber, EventId, MessageCount, Parameter, Place, RaisedAlarm, short_text};
 
 /// How many messages can be pending; more are counted and not shown.
 const PENDING: usize = 64;
+/// How many different long texts are kept; of further ones the beginning is shown.
+const TEXTS: usize = 4096;
+
+/// A parameter of a message before it is raised.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Detail {
+    None,
+    Axis(AxisNumber),
+    Number(i64),
+    Text(String),
+}
+
+impl Detail {
+    /// The axis that it names.
+    pub(super) const fn axis(&self) -> Option<AxisNumber> {
+        match self {
+            Self::Axis(axis) => Some(*axis),
+            Self::None | Self::Number(_) | Self::Text(_) => None,
+        }
+    }
+}
 
 /// The messages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -17,9 +38,41 @@ pub(super) struct Pending {
     pub counts: Vec<MessageCount>,
     /// The event that ended the last ones.
     pub cleared: EventId,
+    /// Texts that are too long for a parameter. They stay: the trace reads them later.
+    texts: Vec<String>,
 }
 
 impl Pending {
+    /// A parameter with its text, however long.
+    pub(super) fn parameter(&mut self, detail: Detail) -> Parameter {
+        match detail {
+            Detail::None => Parameter::None,
+            Detail::Axis(axis) => Parameter::Axis(axis),
+            Detail::Number(number) => Parameter::Number(number),
+            Detail::Text(text) => {
+                let short = short_text(&text);
+                if short.len() == text.len() {
+                    return Parameter::Text(short);
+                }
+                let known = self.texts.iter().position(|other| *other == text);
+                let index = known.or_else(|| {
+                    (self.texts.len() < TEXTS).then(|| {
+                        self.texts.push(text);
+                        self.texts.len() - 1
+                    })
+                });
+                let index = index.and_then(|index| u32::try_from(index).ok());
+                index.map_or(Parameter::Text(short), Parameter::OfControl)
+            }
+        }
+    }
+
+    /// A text that is kept.
+    pub(super) fn text(&self, index: u32) -> &str {
+        let index = usize::try_from(index).ok();
+        index.and_then(|index| self.texts.get(index)).map_or("", String::as_str)
+    }
+
     /// Raises a message. `other` is the second axis that it names.
     pub(super) fn raise(&mut self, alarm: RaisedAlarm, other: Option<AxisNumber>, cause: EventId) {
         self.raise_as(alarm, other, messages::is_warning(alarm.number), cause);
@@ -59,6 +112,11 @@ impl Pending {
     /// The pending messages, ascending by number.
     pub(super) fn iter(&self) -> impl Iterator<Item = RaisedAlarm> + '_ {
         self.alarms.iter().map(|(alarm, _)| *alarm)
+    }
+
+    /// Whether a message of an axis is pending.
+    pub(super) fn has(&self, number: AlarmNumber, axis: AxisNumber) -> bool {
+        self.alarms.iter().any(|(alarm, _)| (alarm.number, alarm.place) == (number, Place::Axis(axis)))
     }
 
     /// The event behind a pending message.

@@ -41,12 +41,15 @@ pub(super) const GANTRY_STEPS: &[Transition<GantryPhase, Why>] = &[
     row(GantryPhase::Homed, Why::ClearingBegins, GantryPhase::Clearing),
     row(GantryPhase::Homed, Why::CombinationOff, GantryPhase::Open),
     row(GantryPhase::Clearing, Why::ClearingEnds, GantryPhase::Homed),
+    row(GantryPhase::Clearing, Why::ClearedUnhomed, GantryPhase::NotHomed),
     row(GantryPhase::Clearing, Why::StageOne, GantryPhase::Stopped),
     row(GantryPhase::Clearing, Why::StageTwo, GantryPhase::Locked),
     row(GantryPhase::Stopped, Why::ClearingBegins, GantryPhase::Clearing),
     row(GantryPhase::Stopped, Why::Cleared, GantryPhase::Homed),
+    row(GantryPhase::Stopped, Why::ClearedUnhomed, GantryPhase::NotHomed),
     row(GantryPhase::Stopped, Why::StageTwo, GantryPhase::Locked),
     row(GantryPhase::Open, Why::CombinationOn, GantryPhase::Homed),
+    row(GantryPhase::Open, Why::ClosedUnhomed, GantryPhase::NotHomed),
 ];
 
 /// What a coupling group of the soft gantry is doing.

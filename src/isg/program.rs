@@ -4,14 +4,17 @@ use std::sync::Arc;
 
 use super::channel::{Task, Wait};
 use super::homing::job::Job;
-use super::language::{Block, Command, End, Environment, Fault, FaultCode, Prepared, Refusal, Variables, is_called};
+use super::language::{
+    Block, Command, End, Environment, Fault, FaultCode, Prepared, Refusal, Variables, is_called, is_modelled,
+};
 use super::links::Refused;
 use super::messages;
+use super::pending::Detail;
 use super::rules::Why;
 use super::state::State;
 use crate::nc_program::Program;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm, short_text};
+use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm};
 
 /// Blocks that are fetched in a cycle at most: a program that jumps for ever does not stop the time.
 const FETCHED: usize = 64;
@@ -69,7 +72,7 @@ pub(super) type Outcome = Result<(), Refused>;
 
 /// A value that is not possible.
 pub(super) fn value(text: &str) -> Refused {
-    Refused(messages::NC_VALUE, Parameter::Text(short_text(text)), Parameter::None)
+    Refused(messages::NC_VALUE, Detail::Text(text.to_owned()), Detail::None)
 }
 
 impl State {
@@ -266,13 +269,22 @@ impl State {
             FaultCode::LinkDenominator => messages::LINK_DENOMINATOR,
             FaultCode::Number(number) => AlarmNumber(number),
         };
-        let third = match fault.code {
-            FaultCode::Syntax => Parameter::Text(short_text(&format!("{}:{}", fault.line, fault.column))),
-            _ => Parameter::Text(short_text(&fault.text)),
+        let (third, fourth) = match &fault.pair {
+            Some(pair) => {
+                let channel = &self.channels[index];
+                let axis = channel.axis_named(&pair.axis).or_else(|| self.axis_of(pair.axis.parse().ok()?));
+                (axis.map_or_else(|| Detail::Text(pair.axis.clone()), Detail::Axis), Detail::Number(pair.group))
+            }
+            None => {
+                let text = match fault.code {
+                    FaultCode::Syntax => format!("line {}, column {}: {}", fault.line, fault.column, fault.text),
+                    _ => fault.text.clone(),
+                };
+                (Detail::Text(text), Detail::None)
+            }
         };
-        let more = [Parameter::Number(fault.number().into()), third, Parameter::None];
         let cause = self.channels[index].causes.program;
-        let event = self.raise_in_channel(index, number, more, None, cause);
+        let event = self.raise_in_channel(index, Some(fault.number()), Refused(number, third, fourth), cause);
         self.channels[index].causes.block = event;
     }
 
@@ -282,19 +294,14 @@ impl State {
             self.raise_fault(index, warning);
         }
         let number = block.origin.block();
-        if let Err(Refused(message, third, fourth)) = self.try_block(index, block) {
+        if let Err(refused) = self.try_block(index, block) {
             if !self.is_executed(index) {
                 // The blocks before it are executed first.
                 self.channels[index].prepared = Some(block.clone());
                 return;
             }
-            let more = [Parameter::Number(number.into()), third, fourth];
-            let other = match third {
-                Parameter::Axis(axis) => Some(axis),
-                _ => None,
-            };
             let cause = self.channels[index].causes.program;
-            let event = self.raise_in_channel(index, message, more, other, cause);
+            let event = self.raise_in_channel(index, Some(number), refused, cause);
             self.channels[index].shown = number;
             self.abort_program(index, event);
         }
@@ -302,6 +309,9 @@ impl State {
 
     fn try_block(&mut self, index: usize, block: &Block) -> Outcome {
         let mut modal = self.channels[index].modal;
+        if let Some(g) = block.g.iter().find(|g| !is_modelled(**g)) {
+            return Err(value(&format!("G{g} is not modelled")));
+        }
         for g in &block.g {
             match g {
                 0..=3 => modal.motion = u16::try_from(*g).unwrap_or(0),
@@ -312,13 +322,13 @@ impl State {
                 91 => modal.absolute = false,
                 161 => modal.centre_absolute = true,
                 162 => modal.centre_absolute = false,
-                4 | 9 | 53..=61 | 64 | 71 | 74 | 80 | 94 | 200..=202 | 260 | 261 | 359 | 360 => {}
-                other => return Err(value(&format!("G{other} is not modelled"))),
+                // They are words of their own in the block, or have no effect here.
+                _ => {}
             }
         }
         if let Some(feed) = block.feed {
             if feed < 0.0 || !feed.is_finite() {
-                return Err(value("F below 0"));
+                return Err(value("F is not negative"));
             }
             modal.feed = feed * self.channels[index].feed_unit;
         }
@@ -363,7 +373,8 @@ impl State {
         let channel = &mut self.channels[index];
         let (number, place) = (channel.number, Place::Channel(channel.number));
         let event = self.log.note_one(place, Why::Raised, super::inputs::block(block), channel.causes.program);
-        let text = Parameter::Text(short_text("M30 in a subroutine"));
+        let text = Detail::Text("the end of the program, M02 or M30, stands in a subroutine".to_owned());
+        let text = self.pending.parameter(text);
         let parameters = [Parameter::Channel(number), Parameter::Number(block.into()), text, Parameter::None];
         self.pending.raise_as(RaisedAlarm { number: messages::NC_CALL, place, parameters }, None, true, event);
         channel.causes.program = self.log.note_plain(place, Why::ProgramAborted, event);
@@ -392,10 +403,6 @@ impl State {
         for (name, order) in &block.homing {
             let axis = channel.axis_named(name).ok_or_else(|| unknown(name))?;
             axes.push((i64::from(*order), axis));
-        }
-        let members: Vec<AxisNumber> = axes.iter().flat_map(|(_, axis)| self.coupled_with(*axis)).collect();
-        if let Some(axis) = members.iter().find(|axis| !self.axes[**axis].units.drive_enable) {
-            return Err(Refused::axis(messages::DRIVE_NOT_READY, *axis));
         }
         self.channels[index].wait = Wait::Homing(Job::new(axes, cause));
         Ok(())
@@ -426,5 +433,5 @@ impl State {
 
 /// An axis that the channel does not have.
 pub(super) fn unknown(name: &str) -> Refused {
-    Refused(messages::AXIS_UNKNOWN, Parameter::Text(short_text(name)), Parameter::None)
+    Refused(messages::AXIS_UNKNOWN, Detail::Text(format!("the channel has no axis {name}")), Detail::None)
 }

@@ -50,6 +50,10 @@ rules! {
     SoftStageOne: "SG-04", "the difference of a coupled axis exceeds limit_1";
     SoftStageTwo: "SG-04", "the difference of a coupled axis exceeds limit_2";
     Cleared: "HG-07", "a reset clears the error: no difference is beyond a limit, or it is being cleared";
+    FaultCleared: "HG-13", "a reset clears the error: no drive of the coupled axes reports a fault";
+    ErrorCleared: "NC", "a reset ends the error state of the channel: no axis of it has an error";
+    ClearedUnhomed: "HG-08", "the error or the difference is cleared, and not all axes are homed";
+    ClosedUnhomed: "HG-16", "#GANTRY ON closes the combination as the lists say, and not all axes are homed";
     ClearingBegins: "HG-12", "the gantry difference is cleared: the slave moves at P-AXIS-00075";
     ClearingEnds: "HG-12", "the distance of slave and master is the offset again";
     CombinationStops: "HG-13", "an error of one axis stops the whole combination at a_emergency";
@@ -81,6 +85,8 @@ rules! {
     BlockRuns: "NC", "the next block of the program runs";
     PlcMissing: "NC", "the PLC program has stopped";
     StartUpCheck: "HG-04", "a check at the start of the controller";
+    UpdateCheck: "HG-06", "a check of the lists after an update at run time";
+    PairCheck: "HG-06", "a pair without printed limits is monitored: a check of the list of its slave";
     Raised: "NC", "a block of the program raises the message";
     ListUpdated: "HG-02", "an entry of a parameter list is updated";
 }

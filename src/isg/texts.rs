@@ -47,10 +47,8 @@ fn parameter_row(parameter: &lists::Parameter) -> AlarmRow {
         number: messages::of_parameter(parameter.number()),
         name: parameter.id(),
         text: match parameter.scope {
-            lists::Scope::Axis => {
-                "Axis %1, %3: corrected; the value is out of its range, or not that of the gantry master %2"
-            }
-            lists::Scope::Channel => "Channel %1, %2: the value is out of its range; corrected",
+            lists::Scope::Axis => "Axis %1, check of the parameter lists: %3",
+            lists::Scope::Channel => "Channel %1, check of the parameter lists: %4",
         },
         raised: true,
         cancelled_by: "NC reset".to_owned(),
@@ -66,6 +64,10 @@ impl Texts for IsgTexts {
 
     fn interface(&self) -> &'static Interface {
         &HLI
+    }
+
+    fn first_names(&self) -> (&'static str, &'static str) {
+        ("ax1", "channel_1")
     }
 
     fn alarms(&self) -> Vec<AlarmRow> {

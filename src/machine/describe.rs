@@ -20,6 +20,10 @@ impl Describe for Machine {
         &self.definition.names
     }
 
+    fn message_text(&self, index: u32) -> &str {
+        self.control.message_text(index)
+    }
+
     fn alarm_text(&self, alarm: &RaisedAlarm) -> String {
         let Some(row) = self.control.texts().alarm(alarm.number) else {
             return String::new();
@@ -105,5 +109,6 @@ fn shown(machine: &Machine, parameter: Parameter) -> String {
         Parameter::Direction(direction) => if direction < 0 { "-" } else { "+" }.to_owned(),
         Parameter::Milliseconds(time) => time.milliseconds().to_string(),
         Parameter::Text(text) => text.to_string(),
+        Parameter::OfControl(index) => machine.control.message_text(index).to_owned(),
     }
 }

@@ -130,7 +130,7 @@ impl NcPrograms {
 
 /// The programs of a file.
 fn read(file: &Path, folder: &str) -> Result<Vec<Program>, Problem> {
-    let cure = "write the path of an NC program, `part.mpf`, relative to the scenario";
+    let cure = "write the path of an NC program, `part.mpf` (of a machine of the ISG kernel `part.nc`), relative to the scenario";
     let problem = |error: &dyn std::fmt::Display| {
         Problem::new(format!("expected an NC program, found {}: {error}", file.display()), cure)
     };

@@ -491,5 +491,6 @@ pub(super) fn shown(data: &MachineData, target: &Target) -> DatumValue {
         place,
         index: (target.datum().count > 1).then_some(target.index()),
         value: data.get(target).and_then(|value| value.number()),
+        word: None,
     }
 }

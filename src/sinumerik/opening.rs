@@ -159,6 +159,7 @@ fn at_power_on(fault: &Fault, cure: &str, names: &Names) -> Finding {
         Parameter::Direction(sign) => if *sign < 0 { "-" } else { "+" }.to_owned(),
         Parameter::Milliseconds(time) => time.milliseconds().to_string(),
         Parameter::Text(text) => text.to_string(),
+        Parameter::OfControl(_) => String::new(),
     };
     let alarm = Alarm::find(fault.alarm);
     let mut text = alarm.map_or_else(String::new, |alarm| alarm.text.to_owned());
@@ -177,7 +178,8 @@ fn cure_of(fault: &Fault) -> &'static str {
         | Parameter::Axis(_)
         | Parameter::Direction(_)
         | Parameter::Milliseconds(_)
-        | Parameter::Text(_) => None,
+        | Parameter::Text(_)
+        | Parameter::OfControl(_) => None,
     });
     match reason {
         Some(1000..2000) => "no leading axis: give one axis MD37100 = the number of the grouping",
@@ -203,7 +205,8 @@ fn fault_axis(fault: &Fault, control: &Nck) -> Option<AxisNumber> {
         | Parameter::Axis(_)
         | Parameter::Direction(_)
         | Parameter::Milliseconds(_)
-        | Parameter::Text(_) => None,
+        | Parameter::Text(_)
+        | Parameter::OfControl(_) => None,
     })?;
     let grouping = reason % 100;
     let of_grouping = |axis: &AxisNumber| {

@@ -86,7 +86,7 @@ pub(super) fn happened(what: &Happening, by: By, describe: &dyn Describe) -> Hap
 
 /// `MD37110 = 0.1`, and the datum in the notation of scenarios with its value.
 fn named(datum: DatumValue, describe: &dyn Describe) -> (String, Vec<(&'static str, Detail)>) {
-    let DatumValue { number, place, index, value } = datum;
+    let DatumValue { number, place, index, value, word } = datum;
     let index = index.map(|index| index.to_string());
     let brackets = |inside: Vec<String>| match inside.is_empty() {
         true => String::new(),
@@ -100,7 +100,9 @@ fn named(datum: DatumValue, describe: &dyn Describe) -> (String, Vec<(&'static s
     let target = format!("{number}{}", brackets(index.into_iter().chain(owner).collect()));
     let mut details = vec![("machine_data", Detail::Text(target))];
     details.extend(value.map(|value| ("value", Detail::Number(value))));
-    (with_value(what, value), details)
+    details.extend(word.map(|word| ("value", Detail::Text(word.to_string()))));
+    let what = word.map_or_else(|| with_value(what.clone(), value), |word| format!("{what} = {word}"));
+    (what, details)
 }
 
 fn with_value(what: String, value: Option<f64>) -> String {

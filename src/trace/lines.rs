@@ -221,6 +221,7 @@ impl Trace {
             Parameter::Direction(direction) => Some(Err(if direction < 0 { "-" } else { "+" }.to_owned())),
             Parameter::Milliseconds(time) => Some(Err(time.milliseconds().to_string())),
             Parameter::Text(text) => Some(Err(text.to_string())),
+            Parameter::OfControl(index) => Some(Err(describe.message_text(index).to_owned())),
         };
         AlarmLine {
             name: describe.alarm_name(alarm.number),

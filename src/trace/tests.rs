@@ -123,9 +123,14 @@ fn happened() -> Trace {
     let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
     let mut recorder = Recorder::default();
     let xf = AxisNumber::new(3).unwrap();
-    let stored = DatumValue { number: 37110, place: Place::Axis(xf), index: None, value: Some(0.1) };
-    let indexed =
-        DatumValue { number: 20070, place: Place::Channel(ChannelNumber::FIRST), index: Some(2), value: None };
+    let stored = DatumValue { number: 37110, place: Place::Axis(xf), index: None, value: Some(0.1), word: None };
+    let indexed = DatumValue {
+        number: 20070,
+        place: Place::Channel(ChannelNumber::FIRST),
+        index: Some(2),
+        value: None,
+        word: None,
+    };
     let mut push = |cycle, what, by, cause| {
         recorder.push(Row { cycle, change: Change::Happened { what, by, cause: EventId(cause) } });
     };

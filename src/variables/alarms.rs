@@ -27,6 +27,8 @@ pub enum Parameter {
     Milliseconds(Time),
     /// A name or a text of a program.
     Text(ShortText),
+    /// A longer text that the control keeps, by its index ([`Describe::message_text`](super::Describe::message_text)).
+    OfControl(u32),
 }
 
 /// A text of at most 24 bytes.

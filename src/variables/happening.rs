@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Place, ProgramName};
+use super::{Place, ProgramName, ShortText};
 use crate::units::{AxisNumber, ChannelNumber};
 
 /// The name of a kind of fault, as scenarios write it.
@@ -67,6 +67,8 @@ pub struct DatumValue {
     pub index: Option<u8>,
     /// The value; `None` if it is a text.
     pub value: Option<f64>,
+    /// The word of a parameter that is none of numbers.
+    pub word: Option<ShortText>,
 }
 
 /// What happened. It consists of numbers; the trace prints it.

@@ -99,6 +99,10 @@ pub trait Describe {
     fn names(&self) -> &Names;
     /// The text of the alarm with its parameters filled in.
     fn alarm_text(&self, alarm: &RaisedAlarm) -> String;
+    /// A longer text of an alarm that the control keeps. The default is a control without them.
+    fn message_text(&self, _index: u32) -> &str {
+        ""
+    }
     /// The displayed name of the alarm: its number, or its name if it has only a name.
     fn alarm_name(&self, number: AlarmNumber) -> String;
     /// The number that stands for the name of an alarm.

@@ -344,6 +344,10 @@ fn signals_are_listed_as_table_json_and_csv() {
     let output = opennck(&["signals", "--format", "json"], &directory);
     let json: serde_json::Value = serde_json::from_str(&out(&output)).unwrap();
     assert_eq!(json.as_array().unwrap().len() + 1, csv);
+    let output = opennck(&["signals", "--profile", "isg"], &directory);
+    let listed = out(&output);
+    assert!(listed.contains("channel_1.start ") && listed.contains("ax1.gantry_on.enable_w "), "{listed}");
+    assert!(!listed.contains("CHAN1.") && !listed.contains("AX1."), "{listed}");
     let output = opennck(&["signals", "start_gantry", "--profile", "828d"], &directory);
     assert!(out(&output).contains("DB3800.DBX5005.4"), "{}", out(&output));
     assert_eq!(opennck(&["signals", "--profile", "802d"], &directory).status.code(), Some(2));

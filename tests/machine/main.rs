@@ -12,6 +12,7 @@ mod dynamics;
 mod fault_table;
 mod first_test;
 mod foreign_readers;
+mod isg_messages;
 mod isg_plc;
 mod machine_data_command;
 mod own_interface;

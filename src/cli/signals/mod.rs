@@ -70,12 +70,13 @@ fn catalogue(machine: Option<&Path>, profile: &str) -> Result<Catalogue, Problem
         let (names, memory) = (machine.names().clone(), machine.memory().clone());
         return Ok(Catalogue { names, memory, texts: machine.control().texts(), machine: Some(machine) });
     }
-    let mut names = Names { profile, ..Names::default() };
-    names.axes[AxisNumber::FIRST] = Some("AX1".to_owned());
-    names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
     let memory = Memory::of(profile.interface());
     let is_of_profile = |texts: &&'static dyn Texts| std::ptr::eq(texts.interface(), profile.interface());
     let texts = controls::texts().find(is_of_profile).expect("a profile belongs to a control");
+    let mut names = Names { profile, ..Names::default() };
+    let (axis, channel) = texts.first_names();
+    names.axes[AxisNumber::FIRST] = Some(axis.to_owned());
+    names.channels[ChannelNumber::FIRST] = Some(channel.to_owned());
     Ok(Catalogue { names, memory, texts, machine: None })
 }
 

@@ -41,9 +41,13 @@ impl State {
         job.running.is_empty() && job.waiting.is_empty()
     }
 
-    /// The axes that a homing moves now.
+    /// The axes that a homing moves now, or next if none moves.
     pub(super) fn homing_now(&self, job: &Job) -> Vec<AxisNumber> {
-        job.running.iter().flat_map(|chain| &chain.members).flat_map(|axis| self.coupled_with(*axis)).collect()
+        let mut axes: Vec<AxisNumber> = job.running.iter().flat_map(|chain| chain.members.clone()).collect();
+        if let (true, Some((next, _))) = (axes.is_empty(), job.waiting.first()) {
+            axes.extend(job.waiting.iter().filter(|(order, _)| order == next).map(|(_, axis)| *axis));
+        }
+        axes.into_iter().flat_map(|axis| self.coupled_with(axis)).collect()
     }
 
     /// The axes of a homing that is held brake as their runs do.

@@ -187,3 +187,12 @@ pub enum PutTargets {
     /// Logical numbers: `#AX RELEASE NBR`.
     Numbers(Vec<u32>),
 }
+
+/// Whether a block can have this G function. The control refuses others as a value that is not possible.
+#[must_use]
+pub const fn is_modelled(g: u32) -> bool {
+    matches!(
+        g,
+        0..=4 | 9 | 17..=19 | 40..=42 | 53..=61 | 64 | 71 | 74 | 80 | 90 | 91 | 94 | 161 | 162 | 200..=202 | 260 | 261 | 359 | 360
+    )
+}

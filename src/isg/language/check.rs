@@ -7,13 +7,14 @@ use std::sync::Arc;
 
 use crate::nc_program::{Program, normalised};
 
+use super::block::{Block, is_modelled};
 use super::compose::{Composed, compose, compose_command};
 use super::fault::{Error, Fault, FaultCode};
 use super::head::{Header, Target, head, header};
 use super::interpreter::{fault, fault_in, hidden, percent};
 use super::lines::Line;
 use super::parse::content;
-use super::scope::{Scope, Store, is_read_only};
+use super::scope::{Owner, Scope, Store, is_read_only, owner};
 use super::search::{DEEPEST, Mark, Opened, Part, Structure, Text, mark, too_deep};
 use super::syntax::{Content, Flow};
 
@@ -64,6 +65,23 @@ pub fn is_called(name: &str, program: &Program) -> bool {
     let (name, known) = (normalised(name), program.name());
     name == known || known.strip_suffix(".NC").is_some_and(|known| name == known)
 }
+
+/// What the control refuses on any machine. Values that only a run knows are not numbers.
+fn possible(block: &Block, at: usize) -> Result<(), Error> {
+    if let Some(g) = block.g.iter().find(|g| !is_modelled(**g)) {
+        return Err(Error::value(at, format!("G{g} is not modelled")));
+    }
+    if block.feed.is_some_and(|feed| feed < 0.0) {
+        return Err(Error::value(at, "F is not negative"));
+    }
+    match block.axes.iter().find(|(_, word)| word.abs() > FARTHEST) {
+        Some((name, _)) => Err(Error::value(at, format!("{name} is too far"))),
+        None => Ok(()),
+    }
+}
+
+/// Farther in mm no word reaches, neither as a position nor as a way from any position of the control.
+const FARTHEST: f64 = 2e7;
 
 struct Checker<'a> {
     text: Text<'a>,
@@ -156,8 +174,9 @@ impl<'a> Checker<'a> {
                 return self.inside(&flow, at);
             }
         };
-        if let Some((name, _, at)) = scope.written.iter().find(|(name, ..)| is_read_only(name)) {
-            return Err(Error::value(*at, format!("{name} cannot be written, only read")));
+        if let Some((name, _, at)) = scope.written.iter().find(|(name, ..)| owner(name) == Owner::Channel) {
+            let why = if is_read_only(name) { ", only read" } else { ": the channel has no such variable" };
+            return Err(Error::value(*at, format!("{name} cannot be written{why}")));
         }
         self.composed(composed, at, warnings)
     }
@@ -165,6 +184,7 @@ impl<'a> Checker<'a> {
     fn composed(&mut self, composed: Composed, at: usize, warnings: &mut Vec<Error>) -> Result<(), Error> {
         warnings.extend(composed.warnings);
         self.has_ended |= composed.block.end.is_some();
+        possible(&composed.block, at)?;
         if self.is_subroutine
             && let Some(function) = composed.block.m.iter().find(|function| matches!(function, 2 | 30))
         {

@@ -242,14 +242,19 @@ fn link(group: &Value, pairs: &[Pair], scope: &Scope<'_>, warnings: &mut Vec<Err
             Axis::Number(value) => logical_number(value, scope).map(AxisReference::Number),
         };
         let form = form(&pair.form, scope)?;
+        let (slave, master) = (axis(&pair.slave)?, axis(&pair.master)?);
         if form.is_scaled() {
             let text = "the coupling factor is neither -1 nor 1; it is set to 1, a standard coupling";
-            warnings.push(Error::new(FaultCode::Number(FACTOR), pair.at, text));
+            let warning = Error::new(FaultCode::Number(FACTOR), pair.at, text);
+            warnings.push(warning.of_pair(slave.bare(), link.group));
         }
-        link.pairs.push(ValuePair { slave: axis(&pair.slave)?, master: axis(&pair.master)?, form });
+        link.pairs.push(ValuePair { slave, master, form });
     }
     match conflict(&link.pairs) {
-        Some((index, code, text)) => Err(Error::new(code, pairs.get(index).map_or(group.at, |pair| pair.at), text)),
+        Some((index, code, axis, text)) => {
+            let at = pairs.get(index).map_or(group.at, |pair| pair.at);
+            Err(Error::new(code, at, text).of_pair(axis.bare(), link.group))
+        }
         None => Ok(link),
     }
 }

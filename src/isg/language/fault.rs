@@ -80,6 +80,17 @@ pub struct Fault {
     pub column: u32,
     /// What was found, and what is allowed.
     pub text: String,
+    /// The pair of a coupling group that it is about.
+    pub pair: Option<FaultyPair>,
+}
+
+/// The axis that a message about a pair names.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FaultyPair {
+    /// Its name, or its logical number.
+    pub axis: String,
+    /// The number of the coupling group.
+    pub group: i64,
 }
 
 impl Fault {
@@ -106,11 +117,17 @@ pub(super) struct Error {
     pub(super) code: FaultCode,
     pub(super) at: usize,
     pub(super) text: String,
+    pub(super) pair: Option<FaultyPair>,
 }
 
 impl Error {
     pub(super) fn new(code: FaultCode, at: usize, text: impl Into<String>) -> Self {
-        Self { code, at, text: text.into() }
+        Self { code, at, text: text.into(), pair: None }
+    }
+
+    /// The same error, about an axis of a coupling group.
+    pub(super) fn of_pair(self, axis: String, group: i64) -> Self {
+        Self { pair: Some(FaultyPair { axis, group }), ..self }
     }
 
     pub(super) fn syntax(at: usize, text: impl Into<String>) -> Self {

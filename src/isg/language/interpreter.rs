@@ -69,6 +69,7 @@ impl Interpreter {
                 line: level.line.max(1),
                 column: 1,
                 text,
+                pair: None,
             };
             return Err(fault);
         };
@@ -379,7 +380,7 @@ fn origin(work: &Work<'_>, head: &Head) -> Origin {
 pub(super) fn fault(program: &Program, line: &Line<'_>, block: Option<u32>, error: Error) -> Fault {
     let at = if error.at == 0 { line.indent() } else { error.at };
     let (number, column) = line.place(at);
-    Fault { code: error.code, program: program.path(), block, line: number, column, text: error.text }
+    Fault { code: error.code, program: program.path(), block, line: number, column, text: error.text, pair: error.pair }
 }
 
 /// The message of an error in a line.
@@ -387,7 +388,8 @@ pub(super) fn fault_in(program: &Program, number: u32, error: Error) -> Fault {
     match Line::read(program, number, false) {
         Some(line) => fault(program, &line, head(&line.text).ok().and_then(|head| head.number), error),
         None => {
-            Fault { code: error.code, program: program.path(), block: None, line: number, column: 1, text: error.text }
+            let (code, text, pair) = (error.code, error.text, error.pair);
+            Fault { code, program: program.path(), block: None, line: number, column: 1, text, pair }
         }
     }
 }

@@ -109,17 +109,19 @@ pub(super) fn factor_error(numerator: i64, denominator: i64) -> Option<(FaultCod
     })
 }
 
-/// The first pair that cannot be with those before it, and why. Logical number 0 is no axis: it stands for a number that is not known.
-pub(super) fn conflict(pairs: &[Pair]) -> Option<(usize, FaultCode, String)> {
+/// The first pair that cannot be with those before it, the axis that is the reason, and why. Logical number 0 is no axis: it stands for a number that is not known.
+pub(super) fn conflict(pairs: &[Pair]) -> Option<(usize, FaultCode, AxisReference, String)> {
     let is_same = |one: &AxisReference, other: &AxisReference| one == other && *one != AxisReference::Number(0);
     for (index, pair) in pairs.iter().enumerate() {
-        let found = |number, text: String| Some((index, FaultCode::Number(number), text));
+        let found = |number, axis: &AxisReference, text: &str| {
+            Some((index, FaultCode::Number(number), axis.clone(), format!("{axis} {text}")))
+        };
         if is_same(&pair.slave, &pair.master) {
-            return found(SLAVE_IS_MASTER, format!("{} is its own master", pair.slave));
+            return found(SLAVE_IS_MASTER, &pair.slave, "is its own master");
         }
         let before = &pairs[..index];
         if before.iter().any(|other| is_same(&other.slave, &pair.slave)) {
-            return found(SLAVE_TWICE, format!("{} is a slave twice", pair.slave));
+            return found(SLAVE_TWICE, &pair.slave, "is a slave twice");
         }
         let both = before.iter().find_map(|other| {
             [(&other.master, &pair.slave), (&other.slave, &pair.master)]
@@ -127,10 +129,21 @@ pub(super) fn conflict(pairs: &[Pair]) -> Option<(usize, FaultCode, String)> {
                 .find(|(one, two)| is_same(one, two))
         });
         if let Some((axis, _)) = both {
-            return found(SLAVE_AND_MASTER, format!("{axis} is both master and slave"));
+            return found(SLAVE_AND_MASTER, axis, "is both master and slave");
         }
     }
     None
+}
+
+impl AxisReference {
+    /// The name, or the number alone: for texts that say "axis" before it.
+    #[must_use]
+    pub fn bare(&self) -> String {
+        match self {
+            Self::Name(name) => name.clone(),
+            Self::Number(number) => number.to_string(),
+        }
+    }
 }
 
 impl std::fmt::Display for AxisReference {

@@ -65,7 +65,9 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-pub use block::{AxisRequest, Block, Command, Conflicts, Dwell, End, GantryTargets, Origin, PutTargets, Sign};
+pub use block::{
+    AxisRequest, Block, Command, Conflicts, Dwell, End, GantryTargets, Origin, PutTargets, Sign, is_modelled,
+};
 pub use check::{Finding, check, is_called};
 pub use fault::{Fault, FaultCode, NUMBERS};
 pub use interpreter::DEEPEST_CALL;

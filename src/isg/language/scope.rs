@@ -49,7 +49,10 @@ impl Values for Scope<'_> {
         if let Some((_, value, _)) = self.written.iter().rev().find(|(written, ..)| written == name) {
             return Some(*value);
         }
-        let Some(channel) = self.channel else { return Some(f64::NAN) };
+        let Some(channel) = self.channel else {
+            let exists = owner(name) != Owner::Channel || is_read_only(name);
+            return exists.then_some(f64::NAN);
+        };
         match owner(name) {
             Owner::Program => self.program.get(name).copied(),
             Owner::Level => self.level.get(name).copied(),

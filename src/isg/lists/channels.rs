@@ -123,8 +123,8 @@ fn channel_axes(
     let (all, count) = (all(draft.list), listed(draft.list).len());
     let there = i64::try_from(all.len()).unwrap_or(0);
     if draft.is_written(COUNT) && draft.whole(COUNT) != there {
-        let allowed = format!("{there}, the number of axes in the list");
-        messages.push(draft.out_of_range(COUNT, &allowed, &count.to_string()));
+        let text = format!("{}, but the list has {there} axes, used the first {count}", draft.found(COUNT));
+        messages.push(draft.message(Code::Parameter(COUNT.number), ERROR, COUNT, &text));
     }
     draft.set_whole(COUNT, i64::try_from(count).unwrap_or(0));
     let mut own: Vec<ChannelAxis> = Vec::new();
@@ -178,13 +178,14 @@ fn group_0(draft: &Draft<'_>, messages: &mut Vec<Message>) -> Vec<Pair> {
         if master == 0 && slave == 0 {
             continue;
         }
-        if let Some((number, why)) = skipped(&pairs, &pair) {
+        if let Some((number, axis, why)) = skipped(&pairs, &pair) {
             let text = format!(
                 "P-CHAN-00037, P-CHAN-00038 of {}: pair {j} of coupling group 0 is {master} → {slave}: {why}; used: no pair",
                 draft.list.owner()
             );
             let message = draft.message(Code::Number(number), WARNING, keys[1], &text);
-            messages.push(message.of_axis(if slave == 0 { master } else { slave }).with_axis(master));
+            let other = if axis == master { slave } else { master };
+            messages.push(message.of_axis(axis).with_axis(other));
             continue;
         }
         if mode > 1 {
@@ -195,21 +196,21 @@ fn group_0(draft: &Draft<'_>, messages: &mut Vec<Message>) -> Vec<Pair> {
     pairs
 }
 
-/// The number of the warning and the reason why a pair is skipped.
-fn skipped(earlier: &[Pair], pair: &Pair) -> Option<(u32, String)> {
+/// The number of the warning, the axis and the reason why a pair is skipped.
+fn skipped(earlier: &[Pair], pair: &Pair) -> Option<(u32, u16, String)> {
     let Pair { master, slave, .. } = *pair;
     if master == 0 || slave == 0 {
-        return Some((20_438, "the number 0 is no axis".to_owned()));
+        return Some((20_438, master.max(slave), "the number 0 is no axis".to_owned()));
     }
     if master == slave {
-        return Some((20_440, "the slave is its own master".to_owned()));
+        return Some((20_440, slave, "the slave is its own master".to_owned()));
     }
     if let Some(other) = earlier.iter().find(|other| other.slave == slave) {
-        return Some((20_441, format!("axis {slave} is the slave of pair {}, too", other.index)));
+        return Some((20_441, slave, format!("axis {slave} is the slave of pair {}, too", other.index)));
     }
     if let Some(other) = earlier.iter().find(|other| other.master == slave || other.slave == master) {
         let both = if other.master == slave { slave } else { master };
-        return Some((20_442, format!("axis {both} is a master and a slave (pair {})", other.index)));
+        return Some((20_442, both, format!("axis {both} is a master and a slave (pair {})", other.index)));
     }
     None
 }

@@ -12,7 +12,7 @@
 use std::collections::BTreeMap;
 
 use super::draft::Draft;
-use super::message::{Code, ERROR, Message, WARNING};
+use super::message::{Code, ERROR, Message, WARNING, short};
 use super::parameter::Key;
 use super::ranges::{
     A_EMERGENCY, A_MAX, HOMING, KIND, LOWER, MASTER, MODE, MODE_MODULO, UPPER, is_master, is_slave, is_spindle,
@@ -116,7 +116,7 @@ fn difference(slave: &Draft<'_>, master: &Draft<'_>, key: Key, found: &str) -> M
         "{found}, its gantry master axis {} has {} ({}); used: the value of the master",
         master.number(),
         master.shown(key),
-        master.place(key)
+        short(&master.place(key))
     );
     slave.message(code, WARNING, key, &text).with_axis(master.number())
 }

@@ -5,7 +5,7 @@ use crate::source::Problem;
 
 use super::draft::Draft;
 use super::list::{List, Lists, Unknown};
-use super::message::{Code, Message};
+use super::message::{Code, Message, short};
 use super::name::probably;
 use super::parameter::{Key, Scope};
 use super::ranges::{KIND, LINEAR, MODE, MODE_MODULO, is_spindle};
@@ -22,24 +22,30 @@ pub fn examine<N: AsRef<str>, B: AsRef<[u8]>>(files: &[(N, B)]) -> Examined {
     let problems: Vec<Problem> = problems.into_iter().chain(lists.contradictions()).collect();
     let is_refused = !problems.is_empty();
     let started = lists.update();
-    let mut findings: Vec<Finding> = problems.into_iter().map(Finding::from).chain(remarks).collect();
-    if !is_refused {
-        // Values that cannot be read would give messages about their defaults.
-        findings.extend(started.messages.iter().map(power_on));
-    }
+    let mut all: Vec<Finding> = problems.into_iter().map(Finding::from).collect();
+    // Values that cannot be read would give messages about their defaults.
+    let messages = if is_refused { &[][..] } else { &started.messages[..] };
+    all.extend(findings(&lists, messages, remarks));
+    let summary = if is_refused { Vec::new() } else { summary(&lists, &started) };
+    Examined { is_refused, is_empty, summary, ignored: Vec::new(), findings: all }
+}
+
+/// The findings about lists that can be read, the heaviest first. `remarks` are those of reading them.
+#[must_use]
+pub fn findings(lists: &Lists, messages: &[Message], remarks: Vec<Finding>) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = remarks.into_iter().chain(messages.iter().map(power_on)).collect();
     for list in lists.axes.iter().chain(&lists.channels) {
         findings.extend(list.unknown.iter().map(|entry| unknown(list, entry)));
         findings.extend(list.stored.keys().filter_map(|key| not_modelled(list, *key)));
         findings.extend(silent_mode(list));
     }
     findings.sort_by_key(|finding| finding.class);
-    let summary = if is_refused { Vec::new() } else { summary(&lists, &started) };
-    Examined { is_refused, is_empty, summary, ignored: lists.others().to_vec(), findings }
+    findings
 }
 
 /// A message of the control at time 0.
 fn power_on(message: &Message) -> Finding {
-    let text = message.text.strip_suffix(&format!(" ({})", message.place)).unwrap_or(&message.text);
+    let text = message.text.strip_suffix(&format!(" ({})", short(&message.place))).unwrap_or(&message.text);
     let what = match message.code {
         Code::Number(number) => format!("{number}: {text}"),
         Code::Parameter(_) => text.to_owned(),
@@ -53,10 +59,9 @@ fn power_on(message: &Message) -> Finding {
 }
 
 fn unknown(list: &List, entry: &Unknown) -> Finding {
-    let (class, what, cure) = match probably(entry.scope, &entry.name) {
-        Some(known) => (Class::Mistyped, "not known; it is kept and has no effect", format!("did you mean `{known}`?")),
-        None => (Class::NotModelled, "not known here; it is kept and has no effect", String::new()),
-    };
+    // A control knows many more parameters: a name that is near to a known one can be right.
+    let cure = probably(entry.scope, &entry.name).map_or_else(String::new, |known| format!("did you mean `{known}`?"));
+    let (class, what) = (Class::NotModelled, "not known here; it is kept and has no effect");
     Finding {
         place: Some(entry.place.clone()),
         datum: entry.name.clone(),
@@ -116,6 +121,9 @@ fn summary(lists: &Lists, started: &Started) -> Vec<String> {
     let unknown = lists.unknown().count();
     if unknown != 0 {
         lines.push(format!("entries of unknown parameters: {unknown}"));
+    }
+    if !lists.others().is_empty() {
+        lines.push(format!("other lists, left alone: {}", lists.others().join(", ")));
     }
     lines
 }

@@ -60,7 +60,7 @@ impl Message {
 
     /// A message about an axis. The place is added to the text.
     pub(super) fn new(code: Code, class: u8, place: &Place, text: &str) -> Self {
-        let text = format!("{text} ({place})");
+        let text = format!("{text} ({})", short(place));
         Self { code, class, axis: None, other_axis: None, channel: None, text, place: place.clone() }
     }
 
@@ -86,4 +86,10 @@ impl fmt::Display for Message {
             Code::Parameter(_) => f.write_str(&self.text),
         }
     }
+}
+
+/// The name of a file without its folders, and the line.
+pub(super) fn short(place: &Place) -> String {
+    let place = place.to_string();
+    place.rsplit(['/', '\\']).next().unwrap_or_default().to_owned()
 }

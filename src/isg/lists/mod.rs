@@ -32,7 +32,7 @@ mod tests;
 mod value;
 mod writing;
 
-pub use examine::examine;
+pub use examine::{examine, findings};
 pub use list::{Lists, Unknown};
 pub use message::{Code, ERROR, Message, WARNING};
 pub use name::parameter;

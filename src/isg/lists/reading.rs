@@ -44,14 +44,22 @@ impl Lists {
     /// # Errors
     /// A list cannot be read, two lists have the same axis, a channel has an axis without a list, names clash, or there is no axis list.
     pub fn read<N: AsRef<str>, B: AsRef<[u8]>>(files: &[(N, B)]) -> Result<Self, Problem> {
-        let Collected { mut lists, problems, .. } = collect(files);
+        Self::read_with_remarks(files).map(|(lists, _)| lists)
+    }
+
+    /// The lists, and what is read in them, but not as it seems.
+    ///
+    /// # Errors
+    /// As [`Lists::read`].
+    pub fn read_with_remarks<N: AsRef<str>, B: AsRef<[u8]>>(files: &[(N, B)]) -> Result<(Self, Vec<Finding>), Problem> {
+        let Collected { mut lists, problems, remarks } = collect(files);
         if let Some(problem) = problems.into_iter().next() {
             return Err(problem);
         }
         lists.adopt_all();
         match lists.contradictions().into_iter().next() {
             Some(problem) => Err(problem),
-            None => Ok(lists),
+            None => Ok((lists, remarks)),
         }
     }
 }

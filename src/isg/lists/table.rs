@@ -125,6 +125,7 @@ pub static PARAMETERS: &[Parameter] = &[
         .means("velocity monitoring of the position controller, not for gantry slaves"),
     axis(486, "kenngr.copy_master_gantry_coupling_to_slave", Type::Boolean)
         .values("0, 1", "0")
+        .not_modelled()
         .means("couplings that the PLC commands for a master hold for its slaves"),
     axis(704, "kenngr.gantry_on_mode", Type::String)
         .values("DEFAULT, ONLY_CONTROL_UNIT, EDGE_TRIGGERED, CONFIG", "DEFAULT")

@@ -55,16 +55,11 @@ impl Lists {
         Ok(())
     }
 
-    /// The number that stands in a list, whether or not it is in effect; `None` without an entry, or for a word.
+    /// The value that stands in a list, whether or not it is in effect; `None` without an entry.
     #[must_use]
-    pub fn written(&self, target: &str) -> Option<f64> {
+    pub fn written(&self, target: &str) -> Option<&Value> {
         let (list, parameter, index) = self.target(target).ok()?;
-        match &list.stored.get(&Key { number: parameter.number(), index })?.value {
-            Value::Integer(number) => Some(*number as f64),
-            Value::Real(number) => Some(*number),
-            Value::Boolean(is) => Some(f64::from(u8::from(*is))),
-            Value::Text(_) => None,
-        }
+        list.stored.get(&Key { number: parameter.number(), index }).map(|entry| &entry.value)
     }
 
     /// Checks a change of one entry without the other entries. Returns when it takes effect.

@@ -108,6 +108,10 @@ impl nck::ControlValues for Panel<'_> {
         self.0.r_parameter(channel, number)
     }
 
+    fn message_text(&self, index: u32) -> &str {
+        self.0.control().message_text(index)
+    }
+
     fn clear_info(&self, alarm: AlarmNumber) -> u8 {
         // An alarm that the control does not know is cancelled by power on.
         self.0.control().texts().alarm(alarm).map_or(ClearInfo::PowerOn, |alarm| alarm.clear_info).code()

@@ -85,6 +85,7 @@ pub(super) fn parameter<'a>(view: &View<'a>, order: Order, line: u16, which: usi
         Parameter::Direction(direction) => if direction < 0 { "S-" } else { "S+" }.to_owned(),
         Parameter::Milliseconds(time) => format!("S{}", time.milliseconds()),
         Parameter::Text(text) => format!("S{text}"),
+        Parameter::OfControl(index) => format!("S{}", view.control.map_or("", |control| control.message_text(index))),
     };
     let found = at(view, order, line)?;
     Some(Shown::Text(found.map_or_else(String::new, |(alarm, _)| text(alarm)).into()))

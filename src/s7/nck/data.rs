@@ -41,6 +41,11 @@ pub trait ControlValues {
     /// How an alarm is cancelled: 1 POWER ON, 2 RESET, 3 the cancel key, 4 automatically by the NCK, 5 NC start, 6 RESET in all channels of
     /// the mode group.
     fn clear_info(&self, alarm: AlarmNumber) -> u8;
+
+    /// A longer text of an alarm that the control keeps. The default is a control without them.
+    fn message_text(&self, _index: u32) -> &str {
+        ""
+    }
 }
 
 /// The value of a machine datum; its kind determines the length on the wire.

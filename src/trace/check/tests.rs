@@ -171,7 +171,13 @@ fn an_alarm_without_a_cause_is_found() {
 fn another_value_of_a_machine_datum_than_the_active_one_is_found() {
     let run = |value| {
         let mut run = Run::new();
-        let datum = DatumValue { number: 36060, place: Place::Axis(AxisNumber::FIRST), index: None, value: Some(5.0) };
+        let datum = DatumValue {
+            number: 36060,
+            place: Place::Axis(AxisNumber::FIRST),
+            index: None,
+            value: Some(5.0),
+            word: None,
+        };
         let change = Change::Happened { what: Happening::DatumActive(datum), by: By::Nck, cause: EventId::NONE };
         run.recorder.push(Row { cycle: 13, change });
         run.findings(13, Input::Datum(36060, Some(AxisNumber::FIRST), value), 0)
@@ -195,7 +201,8 @@ fn another_value_of_a_machine_datum_than_from_the_start_is_found() {
 #[test]
 fn a_machine_datum_that_becomes_active_later_is_not_compared_before() {
     let mut run = Run::new();
-    let datum = DatumValue { number: 36030, place: Place::Axis(AxisNumber::FIRST), index: None, value: Some(0.1) };
+    let datum =
+        DatumValue { number: 36030, place: Place::Axis(AxisNumber::FIRST), index: None, value: Some(0.1), word: None };
     let change = Change::Happened { what: Happening::DatumActive(datum), by: By::Nck, cause: EventId::NONE };
     run.recorder.push(Row { cycle: 14, change });
     assert_eq!(run.findings(13, Input::Datum(36030, Some(AxisNumber::FIRST), 0.2), 0), []);

@@ -37,3 +37,12 @@ fn what_only_a_run_knows_is_no_error() {
     let text = "N10 #AX LINK NBR[P1, [P2 = P3, P4, P5], P6=P7]\n#SET AX LINK[P1, [Y2=Y1,G,P1,P2]]\nX=SQRT[P1] G74 Y=P2\nG04 P1\n#CALL AX [A1, P1, P2]\n$FOR P1=P2,P3,P4\nX=P1[P2]\n$ENDFOR\n/ $GOTO N10\nN10:";
     assert_eq!(found(text), []);
 }
+
+/// What the control refuses on any machine is an error here, too, each in its line.
+#[test]
+fn values_that_no_machine_takes_are_errors() {
+    let text = "G33 X1\nG500\nF-100\nV.G.FOO=1\nX=V.G.AX_LINK.FOO\nG0 X=99999999999999999999\nN10 G01 X1 F100\nM30\n";
+    let errors: Vec<_> = found(text).into_iter().map(|(line, _, code, _)| (line, code)).collect();
+    let wanted: Vec<_> = (1..=6).map(|line| (line, "nc-value".to_owned())).collect();
+    assert_eq!(errors, wanted);
+}

@@ -29,25 +29,25 @@ fn everything_about_the_files_is_reported() {
     let files = [("a.lis", MASTER), ("b.lis", &slave), ("c.lis", CHANNEL), ("d.lis", "kenngr.achs_typ 1\n")];
     let examined = examine(&files);
     assert!(!examined.is_refused);
-    assert_eq!(examined.ignored, ["d.lis"]);
+    assert_eq!(examined.summary.last().map(String::as_str), Some("other lists, left alone: d.lis"));
     let shown: Vec<String> = examined.findings.iter().map(ToString::to_string).collect();
     let expected = [
         "b.lis:11: alarm at power on: error P-AXIS-00075 kenngr.gantry_vb_korr of axis 5: found 0, allowed 1 … 199999 \
             (P-AXIS-00212 is 200000), used 1",
-        "b.lis:9: unknown: kenngr.gantry_max_diff_resettable = 500, axis 5: not known; it is kept and has no effect\n  \
-            did you mean `kenngr.gantry_max_diff_resetable`?",
         "b.lis:10: implausible: P-AXIS-00704 kenngr.gantry_on_mode = \"CONFIG\", axis 5: behind the word stands `# x`, which is ignored\n  \
             behind a word, begin a comment with `(`",
         "d.lis:1: implausible: has `kenngr.achs_typ`, but no `kopf.achs_nr`: it is not read as the list of an axis\n  \
             write the logical number of the axis: kopf.achs_nr 5",
         "b.lis:11: overlaid: P-AXIS-00075 kenngr.gantry_vb_korr = 0, axis 5: replaces the entry in line 8",
+        "b.lis:9: not modelled: kenngr.gantry_max_diff_resettable = 500, axis 5: not known here; it is kept and has no effect\n  \
+            did you mean `kenngr.gantry_max_diff_resetable`?",
         "b.lis:12: not modelled: kenngr.swe_pos = 5, axis 5: not known here; it is kept and has no effect",
         "b.lis:13: not modelled: P-AXIS-00008 getriebe[1].dynamik.a_max = 7, axis 5: only the index 0 is modelled; the entry is kept and \
             has no effect",
         "b.lis:14: not modelled: P-AXIS-00407 lr_param.dyn_monitoring_v_err = 1, axis 5: not modelled; it is kept and has no effect",
     ];
     assert_eq!(shown, expected);
-    assert!(summary(&examined.findings).unwrap().starts_with("1 alarm at power on, 1 unknown"));
+    assert!(summary(&examined.findings).unwrap().starts_with("1 alarm at power on, 2 implausible"));
 }
 
 /// HG-28: files that no machine can have are refused, with all reasons.
