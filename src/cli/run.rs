@@ -10,7 +10,7 @@ use super::files::Files;
 use super::output::Output;
 use crate::machine::Machine;
 use crate::plc::{PlcProcess, Programs};
-use crate::scenario::{Failure, Finished, Prepared, Scenario};
+use crate::scenario::{Failure, Finished, Named, Prepared, Scenario};
 use crate::source::{Place, Problem, Replacement};
 use crate::trace::{Curves, Window};
 use crate::units::Time;
@@ -24,6 +24,9 @@ pub(super) struct Options {
     /// Prints the smallest margin of each rule: cycles until a consequence would have been too late, or the distance of a compared value.
     #[arg(long)]
     margins: bool,
+    /// Runs this PLC program in place of that of the scenario: a registered name, or with a `/` the folder of a STEP 7 program.
+    #[arg(long, value_name = "NAME", conflicts_with = "plc_process")]
+    plc: Option<String>,
     /// Runs the PLC program in another process: starts this command, which maps the file `{image}`, and ends it after the run.
     ///
     /// The process answers each scan (lock-step), so the trace is the same to the byte in every run. It replaces `plc` of the scenario; in a
@@ -210,6 +213,15 @@ fn prepare(
         for case in &mut cases {
             case.plc = None;
             case.plc_process = Some((process.clone(), Place::file("--plc-process")));
+        }
+    }
+    if let Some(name) = &options.plc {
+        // A folder is one of the user's working directory, not of the scenario.
+        let folder = Path::new(name).canonicalize().ok().filter(|_| Programs::is_folder(name));
+        let text = folder.map_or_else(|| name.clone(), |folder| folder.to_string_lossy().into_owned());
+        for case in &mut cases {
+            case.plc = Some(Named { text: text.clone(), place: Place::file("--plc") });
+            case.plc_process = None;
         }
     }
     inputs.extend(cases.iter().flat_map(Scenario::inputs));

@@ -47,8 +47,11 @@ pub use programs::{
 pub use registry::Programs;
 pub use spin_ctrl::{SpinCtrl, SpinCtrlInputs, SpinCtrlOutputs};
 
-use crate::image::AsBytes;
+use serde::{Deserialize, Serialize};
+
+use crate::image::{AsBytes, Memory, Names};
 use crate::source::Problem;
+use crate::units::Time;
 
 /// The PLC program cannot continue: the PLC stops, and the NCK detects the missing sign of life (alarm 2000).
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -56,13 +59,26 @@ use crate::source::Problem;
 pub struct PlcFault {
     /// The reason, in the words of the program.
     pub reason: String,
+    /// The entries of the diagnostic buffer, if the program is one of a CPU with such entries.
+    pub diagnosis: Option<PlcDiagnosis>,
+}
+
+/// Why a CPU stopped, as its diagnostic buffer has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlcDiagnosis {
+    /// The event that led to STOP, if there is one.
+    pub cause: Option<u16>,
+    /// The event of the change to STOP.
+    pub stop: u16,
+    /// Additional information of both.
+    pub information: [u8; 10],
 }
 
 impl PlcFault {
     /// A fault with the given reason.
     #[must_use]
     pub fn new(reason: impl Into<String>) -> Self {
-        Self { reason: reason.into() }
+        Self { reason: reason.into(), diagnosis: None }
     }
 }
 
@@ -78,6 +94,28 @@ pub trait PlcProgram: Send {
     /// # Errors
     /// The program cannot start.
     fn begin(&mut self) -> Result<(), Problem> {
+        Ok(())
+    }
+
+    /// Called when a machine loads the program, with the memory after power on: the program can enlarge areas and add data blocks of its
+    /// own. It may be called again, with the memory of a machine that runs.
+    fn install(&mut self, _memory: &mut Memory, _names: &Names) {}
+
+    /// The time between two scans, rounded up to whole NC cycles; `None` if the machine decides.
+    fn cycle(&self) -> Option<Time> {
+        None
+    }
+
+    /// Whether [`PlcProgram::interrupt`] is to be called.
+    fn has_interrupts(&self) -> bool {
+        false
+    }
+
+    /// Called in each NC cycle without a scan: what runs between two scans, such as OB35.
+    ///
+    /// # Errors
+    /// The program cannot continue; the PLC stops.
+    fn interrupt(&mut self, _io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         Ok(())
     }
 

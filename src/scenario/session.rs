@@ -18,7 +18,7 @@ use crate::expression::{Expression, Followed};
 use crate::image::Location;
 use crate::machine::{Command, Machine};
 use crate::monitor::{Claim, Consequence, Rule, Span};
-use crate::plc::PlcProgram;
+use crate::plc::{PlcProgram, Programs, step7};
 use crate::source::{Place, Problem};
 use crate::trace::{Head, Trace, Watch, Window};
 use crate::units::Time;
@@ -49,7 +49,9 @@ impl Session {
     /// # Errors
     /// The files of the machine are invalid.
     pub fn open(machine: impl AsRef<Path>) -> Result<Self, Failure> {
-        Ok(Self::new(Machine::open(machine)?))
+        let mut machine = Machine::open(machine)?;
+        machine.load_own_program(&Programs::ready())?;
+        Ok(Self::new(machine))
     }
 
     /// A session with a machine that is already open.
@@ -68,7 +70,18 @@ impl Session {
     #[must_use]
     pub fn with_program(mut self, program: Box<dyn PlcProgram>) -> Self {
         self.machine.load_program(program);
+        self.trace.remember(self.machine.memory());
         self
+    }
+
+    /// The same session with the STEP 7 program in a folder.
+    ///
+    /// # Errors
+    /// The folder cannot be read, or its sources have findings.
+    pub fn with_step7(self, folder: impl AsRef<Path>) -> Result<Self, Failure> {
+        let folder = folder.as_ref();
+        let name = folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        Ok(self.with_program(step7::load(folder, &name)?.boxed()))
     }
 
     /// The machine.
@@ -445,6 +458,7 @@ impl Session {
     pub(super) fn cycle(&mut self) {
         self.machine.step();
         self.trace.extend(self.machine.recorder());
+        self.trace.note_fault(self.machine.recorder(), self.machine.program_fault());
         self.book.note_changes(&self.machine);
         self.machine.drain();
         let (machine, cycle) = (&self.machine, self.machine.cycle());

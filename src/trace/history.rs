@@ -6,10 +6,10 @@ use super::measured::Measured;
 use super::record::by_in_words;
 use super::value::Recorded;
 use super::watch::WatchedItem;
-use super::{Change, Recorder, Row, Watch};
+use super::{By, Change, Recorder, Row, Watch};
 use crate::image::{Location, Memory, PartBytes};
 use crate::units::Time;
-use crate::variables::{Event, EventId, NamedValue, RuleNumber, Variables};
+use crate::variables::{Event, EventId, Happening, NamedValue, RuleNumber, Variables};
 
 /// A trace that grows while a machine runs.
 #[derive(Clone, Debug)]
@@ -75,6 +75,24 @@ impl Trace {
             measured: None,
             lost: 0,
             last_cycle: cycle,
+        }
+    }
+
+    /// Areas and data blocks that a program brought before the first cycle.
+    pub fn remember(&mut self, memory: &Memory) {
+        if self.bits.is_empty() {
+            self.start = memory.clone();
+        }
+    }
+
+    /// Takes a note of why the PLC program stopped, if the recorder has that it stopped by itself.
+    pub fn note_fault(&mut self, recorder: &Recorder, fault: Option<&str>) {
+        let stopped = recorder
+            .rows()
+            .iter()
+            .find(|row| matches!(row.change, Change::Happened { what: Happening::PlcStopped, by: By::Plc, .. }));
+        if let (Some(row), Some(fault)) = (stopped, fault) {
+            self.notes.push((row.cycle, fault.to_owned()));
         }
     }
 

@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use crate::plc::step7::instruction::Logic;
 use crate::plc::step7::program::Program;
 
+use super::arithmetic::digits;
 use super::fault::Stop;
 use super::memory::OpenBlock;
 use super::registers::Registers;
-use super::timer::{Counter, Timer};
+use super::timer::{Counter, Timer, bcd};
 
 /// Properties of the CPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,8 +127,10 @@ pub(in crate::plc::step7) struct Work {
     pub(in crate::plc::step7) mcr: McrState,
     pub(in crate::plc::step7) budget: u64,
     pub(in crate::plc::step7) now: i64,
-    /// Whether OB121 or OB122 runs.
+    /// Whether OB80, OB121 or OB122 runs.
     pub(in crate::plc::step7) in_error: bool,
+    /// Whether OB80 has run in this scan.
+    pub(in crate::plc::step7) is_late: bool,
     /// The instruction that runs, or ran last.
     pub(in crate::plc::step7) pc: u32,
 }
@@ -207,6 +210,12 @@ impl Cpu {
         &self.program
     }
 
+    /// The program, to share it with another CPU.
+    #[must_use]
+    pub fn shared_program(&self) -> Arc<Program> {
+        Arc::clone(&self.program)
+    }
+
     /// Why the PLC stopped, if it did.
     #[must_use]
     pub fn stopped(&self) -> Option<&Stop> {
@@ -222,6 +231,34 @@ impl Cpu {
     /// The registers, to be set before a scan.
     pub fn registers_mut(&mut self) -> &mut Registers {
         &mut self.state.registers
+    }
+
+    /// The options with which it runs.
+    #[must_use]
+    pub fn options(&self) -> CpuOptions {
+        self.options
+    }
+
+    /// The word of a timer as clients read it: the value in BCD with its base in the bits 12 and 13, at a time in ns.
+    #[must_use]
+    pub fn timer_word(&self, number: u16, now: i64) -> Option<u16> {
+        let timer = self.state.timers.get(usize::from(number))?;
+        Some(u16::from(timer.base()) << 12 | bcd(timer.value(now)))
+    }
+
+    /// The word of a counter as clients read it: the value in BCD.
+    #[must_use]
+    pub fn counter_word(&self, number: u16) -> Option<u16> {
+        self.counter(number).map(bcd)
+    }
+
+    /// Sets a counter from a word in BCD; a digit above 9 changes nothing.
+    pub fn set_counter_word(&mut self, number: u16, word: u16) {
+        if let (Some(counter), Ok(value)) =
+            (self.state.counters.get_mut(usize::from(number)), digits(u32::from(word & 0xFFF)))
+        {
+            counter.value = u16::try_from(value).unwrap_or(999);
+        }
     }
 
     /// The value of a timer as `L T` loads it, and its status bit, at a time in ns.

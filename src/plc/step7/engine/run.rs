@@ -26,7 +26,8 @@ impl Cpu {
             pc += 1;
             if budget == 0 {
                 self.work.pc = here;
-                return Err(Fault::CycleTime);
+                self.late(areas)?;
+                budget = self.work.budget;
             }
             budget -= 1;
             if let Err(fault) = self.execute(areas, op, &mut pc) {

@@ -38,6 +38,11 @@ pub(in crate::plc::step7) struct Timer {
     freed: bool,
 }
 
+/// Three BCD digits.
+pub(in crate::plc::step7) const fn bcd(value: u16) -> u16 {
+    value / 100 % 10 << 8 | value / 10 % 10 << 4 | value % 10
+}
+
 const fn base_nanos(base: u8) -> i64 {
     match base {
         0 => 10_000_000,
