@@ -41,13 +41,14 @@ pub use conditions::{Subject, Tested};
 pub use open::OpenOptions;
 pub use saved::Snapshot;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
 use crate::control::{Control, Finding};
-use crate::image::{Memory, Names, OverrideCoding, PartBytes};
+use crate::image::{Location, Memory, Names, OverrideCoding, PartBytes};
 use crate::nc_program::Program;
-use crate::plc::{PlcDiagnosis, PlcProgram, Programs, step7};
+use crate::plc::{PlcDiagnosis, PlcProgram, ProgramCause, Programs, step7};
 use crate::source::{Place, Problem};
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Time};
@@ -128,6 +129,48 @@ impl Machine {
     #[must_use]
     pub fn own_program(&self) -> Option<(&str, &Place)> {
         self.definition.plc.as_ref().map(|(name, place)| (name.as_str(), place))
+    }
+
+    /// Observes the PLC program from now on, for [`Machine::program_causes`] and [`Machine::program_coverage`].
+    pub fn observe_program(&mut self) {
+        if let Some(program) = &mut self.program {
+            program.observe();
+        }
+    }
+
+    /// Why the PLC program changed bits in the last cycle, if it is observed and says so.
+    #[must_use]
+    pub fn program_causes(&self) -> Vec<ProgramCause> {
+        self.program.as_ref().map_or_else(Vec::new, |program| program.causes(self.state.cycle))
+    }
+
+    /// The symbols of the PLC program for bits, timers and counters, by their addresses such as `I1.0` and `T5`; none if it has no table.
+    #[must_use]
+    pub fn program_symbols(&self) -> Option<&Arc<BTreeMap<String, String>>> {
+        self.program.as_ref()?.symbols()
+    }
+
+    /// What the PLC program does with a bit, or with the word of a timer, in its next scan: the statements that write it, in order, with the operands that decide. Empty
+    /// if it writes it in no statement that runs, or does not say so.
+    #[must_use]
+    pub fn program_writes(&self, location: Location) -> Vec<ProgramCause> {
+        let Ok(mut next) = self.fork() else { return Vec::new() };
+        let Some(program) = &mut next.program else { return Vec::new() };
+        program.observe_every_write();
+        for _ in 0..=self.state.plc.wait {
+            next.step();
+            next.drain();
+        }
+        let bit = location.offset * 8 + u32::from(location.bit);
+        let is_meant =
+            |cause: &ProgramCause| (cause.part, cause.bit, cause.bits) == (location.part, bit, location.width.into());
+        next.program_causes().into_iter().filter(is_meant).collect()
+    }
+
+    /// What ran of the PLC program since it is observed, if it is a program with statements.
+    #[must_use]
+    pub fn program_coverage(&self) -> Option<step7::Coverage> {
+        self.program.as_ref()?.coverage()
     }
 
     /// Number of cycles run so far.

@@ -47,9 +47,12 @@ pub use programs::{
 pub use registry::Programs;
 pub use spin_ctrl::{SpinCtrl, SpinCtrlInputs, SpinCtrlOutputs};
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use crate::image::{AsBytes, Memory, Names};
+use crate::image::{AsBytes, Location, Memory, Names, Part};
 use crate::source::Problem;
 use crate::units::Time;
 
@@ -80,6 +83,34 @@ impl PlcFault {
     pub fn new(reason: impl Into<String>) -> Self {
         Self { reason: reason.into(), diagnosis: None }
     }
+}
+
+/// Why a program changed bits of the memory: the statement that wrote them, and the operands that made its result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProgramCause {
+    /// The first of the bits.
+    pub part: Part,
+    /// Its address in bits, from the beginning of the part.
+    pub bit: u32,
+    /// The number of bits.
+    pub bits: u32,
+    /// The new value of a single bit.
+    pub value: bool,
+    /// The statement with its place: `FC10, network 3, statement 5 (motor.awl:12)`.
+    pub statement: Arc<str>,
+    /// The operands that were decisive, with their values.
+    pub tested: Vec<Tested>,
+}
+
+/// An operand that a program has tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tested {
+    /// A bit of the memory.
+    Bit(Location, bool),
+    /// The status of a timer.
+    Timer(u16, bool),
+    /// Whether a counter is not 0.
+    Counter(u16, bool),
 }
 
 /// A PLC program of any kind. It sees the parts of the interface as bytes, independent of the control. [`PlcIo::typed`] gives the
@@ -130,6 +161,28 @@ pub trait PlcProgram: Send {
     /// # Errors
     /// The program cannot continue; the PLC stops.
     fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault>;
+
+    /// Observes the program from now on, for [`PlcProgram::causes`] and [`PlcProgram::coverage`]: slower, with the same results. What was
+    /// observed is no part of the state.
+    fn observe(&mut self) {}
+
+    /// The same, and from now on [`PlcProgram::causes`] has every write of a bit, also of one with its present value.
+    fn observe_every_write(&mut self) {}
+
+    /// Why the program changed bits in this cycle, in the order of its statements, if it is observed.
+    fn causes(&self, _cycle: u64) -> Vec<ProgramCause> {
+        Vec::new()
+    }
+
+    /// The symbols of the program for bits, timers and counters, by their addresses such as `I1.0` and `T5`.
+    fn symbols(&self) -> Option<&Arc<BTreeMap<String, String>>> {
+        None
+    }
+
+    /// What ran of the program since it is observed, if it is a program with statements.
+    fn coverage(&self) -> Option<step7::Coverage> {
+        None
+    }
 
     /// The complete state of the program, as bytes.
     fn save(&self) -> Vec<u8>;

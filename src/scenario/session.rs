@@ -15,12 +15,12 @@ use super::programs::Text;
 use super::steps::{Action, Reader, Steps};
 use super::values::Setting;
 use crate::expression::{Expression, Followed};
-use crate::image::Location;
+use crate::image::{Format, Location, Part};
 use crate::machine::{Command, Machine};
 use crate::monitor::{Claim, Consequence, Rule, Span};
-use crate::plc::{PlcProgram, Programs, step7};
+use crate::plc::{PlcProgram, ProgramCause, Programs, Tested, step7};
 use crate::source::{Place, Problem};
-use crate::trace::{Head, Trace, Watch, Window};
+use crate::trace::{Head, ProgramRow, Trace, Watch, Window};
 use crate::units::Time;
 
 /// A machine with its growing trace.
@@ -56,21 +56,24 @@ impl Session {
 
     /// A session with a machine that is already open.
     #[must_use]
-    pub fn new(machine: Machine) -> Self {
-        Self {
-            trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time()),
-            watch: Watch::default(),
-            book: Book::new(&machine),
-            texts: Vec::new(),
-            machine,
+    pub fn new(mut machine: Machine) -> Self {
+        machine.observe_program();
+        let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time());
+        if let Some(symbols) = machine.program_symbols() {
+            trace.name_program(symbols);
         }
+        Self { trace, watch: Watch::default(), book: Book::new(&machine), texts: Vec::new(), machine }
     }
 
     /// The same session with a PLC program.
     #[must_use]
     pub fn with_program(mut self, program: Box<dyn PlcProgram>) -> Self {
         self.machine.load_program(program);
+        self.machine.observe_program();
         self.trace.remember(self.machine.memory());
+        if let Some(symbols) = self.machine.program_symbols() {
+            self.trace.name_program(symbols);
+        }
         self
     }
 
@@ -459,6 +462,7 @@ impl Session {
         self.machine.step();
         self.trace.extend(self.machine.recorder());
         self.trace.note_fault(self.machine.recorder(), self.machine.program_fault());
+        self.trace.extend_causes(self.machine.cycle(), program_rows(&self.machine));
         self.book.note_changes(&self.machine);
         self.machine.drain();
         let (machine, cycle) = (&self.machine, self.machine.cycle());
@@ -497,4 +501,22 @@ impl Session {
         expression.follow(followed);
         Ok(expression)
     }
+}
+
+/// Why the PLC program changed bits in the last cycle, for the trace.
+fn program_rows(machine: &Machine) -> impl Iterator<Item = ProgramRow> {
+    let word = |part, number: u16| {
+        let offset = u32::from(number) * 2;
+        Location { part, offset, bit: 0, width: 16, format: Format::Unsigned }
+    };
+    let tested = move |tested: &Tested| match *tested {
+        Tested::Bit(location, value) => (location, value),
+        Tested::Timer(number, status) => (word(Part::Timers, number), status),
+        Tested::Counter(number, status) => (word(Part::Counters, number), status),
+    };
+    machine.program_causes().into_iter().map(move |cause| {
+        let ProgramCause { part, bit, bits, value, statement, tested: operands } = cause;
+        let tested = operands.iter().map(tested).collect();
+        ProgramRow { cycle: machine.cycle(), part, bit, bits, value, statement, tested }
+    })
 }

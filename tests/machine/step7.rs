@@ -8,6 +8,8 @@ use opennck::image::Profile;
 use opennck::machine::{Command, Machine, OpenOptions};
 use opennck::plc::Programs;
 use opennck::scenario::{Finished, Scenario, Session};
+use opennck::trace::Story;
+use opennck::units::Time;
 
 /// The enables of axis 2 (Y), a clock of 100 ms in T 5, a counter, a data block; OB35 counts, too.
 const PORTAL: &str = "DATA_BLOCK DB 100\nSTRUCT\nscans : INT := 7;\nstarts : INT;\ninterrupts : INT;\nEND_STRUCT;\nBEGIN\n\
@@ -182,9 +184,10 @@ fn the_828d_has_its_own_numbers() {
 /// O-28: what the program writes reaches the control 10 ms later.
 #[test]
 fn delays_act_as_for_closures() {
-    let directory = directory("delays", PORTAL, "");
-    let scenario = "[plant.machine]\nto_nck_delay = \"10ms\"\n[[step]]\nhold = \"!Y.position_controller_active\"\nduring = \"5cycles\"\n\
-        [[step]]\nexpect = \"Y.controller_enable\"\n[[step]]\nwait = \"Y.position_controller_active\"\nwithin = \"1s\"\n";
+    let source = ob1("SET;\n= DB32.DBX 1.5;\n= DB32.DBX 21.7;\nAN I 0.1;\n= DB32.DBX 2.1;");
+    let directory = directory("delays", &source, "");
+    let scenario = "[plant.machine]\nto_nck_delay = \"10ms\"\n[[step]]\nrun = \"1s\"\n[[step]]\nexpect = \"Y.position_controller_active\"\n\
+        [[step]]\nset = { \"I0.1\" = 1 }\n[[step]]\nwait = \"!Y.position_controller_active\"\nwithin = \"1s\"\n";
     let late = passes(&directory, scenario).session().time();
     let at_once = passes(&directory, &scenario.replace("10ms", "0ms")).session().time();
     assert_eq!((late - at_once).milliseconds(), 10.0);
@@ -248,4 +251,137 @@ fn a_saved_and_a_forked_machine_go_on_in_the_middle_of_a_timer() {
     assert_eq!(machine.memory().read(output), 1);
     fs::write(directory.join("step7/portal/main.awl"), ob1("NOP 0;")).unwrap();
     assert!(open().restore(&saved).is_err(), "another program");
+}
+
+/// From the position control of X back through four blocks, a multi-instance and a timer to the key and the pressure switch.
+#[test]
+fn why_goes_through_the_program_to_the_key() {
+    let finished = example("clamp_fault");
+    let session = finished.session();
+    let story = session.trace().story(session.machine());
+    let text = story.why("X.position_controller_active", Time::from_seconds(3.2)).unwrap();
+    let rows = [
+        "because SIG-01: controller enable missing in the unit, X.controller_enable = 0  [X]",
+        "X.controller_enable (DB31.DBX2.1)  1 -> 0  by plc",
+        "because FB11, network 2, statement 1 (blocks.awl:146): DB110.DBX4.1 = 0  [PLC]",
+        "because OB1, network 3, statement 5 (main.awl:37): \"Clamp fault\" (M11.0) = 1  [PLC]",
+        "because FC30, network 2, statement 6 (blocks.awl:70): \"Clamp monitoring\" (T2) = 1  [PLC]",
+        "because FC30, network 2, statement 4 (blocks.awl:68): \"Clamp valve\" (Q0.1) = 1, \"Clamp closed\" (I1.3) = 0  [PLC]",
+        "because FC30, network 1, statement 3 (blocks.awl:62): \"Key clamp\" (I0.5) = 1, \"Hydraulics ready\" (M10.0) = 1  [PLC]",
+        "I0.5  0 -> 1  by outside",
+    ];
+    let mut rest = text.as_str();
+    for row in rows {
+        rest = &rest[rest.find(row).unwrap_or_else(|| panic!("{row}\n{text}"))..];
+    }
+    // The same from JSON lines.
+    let read = Story::read(&session.json_lines()).unwrap();
+    let again = read.why("X.controller_enable", Time::from_seconds(3.2)).unwrap();
+    assert!(
+        again.contains("because FB11, network 2, statement 1 (blocks.awl:146): DB110.DBX4.1 = 0  [PLC]"),
+        "{again}"
+    );
+}
+
+#[test]
+fn why_not_names_the_open_contact() {
+    let scenario = Scenario::read(&portal().join("reference_and_synchronise.toml")).unwrap();
+    let prepared = scenario.prepare(Profile::default(), &Programs::ready()).unwrap();
+    // Pressure is there, the time is not over.
+    let finished = prepared.run_until(Some(Time::from_seconds(0.5)));
+    let text = finished.session().why_not("X.traversing_key_plus", false).unwrap();
+    let head = "X.traversing_key_plus (DB31.DBX4.7) is 0: the control does not write it; never changed";
+    assert!(text.contains(head), "{text}");
+    for row in [
+        "FC40, network 1, statement 5 (blocks.awl:87)",
+        "\"Key X plus\" (I0.3) = 0, wanted 1: never changed",
+        "\"Clamp closed\" (I1.3) = 0, wanted 1: never changed",
+        "\"Axes released\" (M10.1) = 0, wanted 1: never changed",
+        "OB1, network 3, statement 5 (main.awl:37)",
+        "\"Pressure delay\" (T1) = 0, wanted 1",
+    ] {
+        assert!(text.contains(row), "{row}\n{text}");
+    }
+    assert!(!text.contains("Key X minus"), "its contact is closed:\n{text}");
+}
+
+fn portal() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/step7_portal")
+}
+
+#[track_caller]
+fn example(name: &str) -> Finished {
+    let scenario = Scenario::read(&portal().join(format!("{name}.toml"))).unwrap();
+    let finished = scenario.prepare(Profile::default(), &Programs::ready()).unwrap().run();
+    assert!(finished.failure.is_none(), "{}", finished.text());
+    finished
+}
+
+#[test]
+fn the_example_passes_and_has_its_golden_traces() {
+    opennck::golden::check(portal(), &Programs::ready());
+}
+
+/// A scenario observes the program; its trace and state are those of a machine that does not.
+#[test]
+fn an_observed_machine_has_the_same_bytes() {
+    let directory = directory("observed", PORTAL, "");
+    let open = || {
+        let mut machine = Machine::open("g1_example").unwrap();
+        machine.load_named("step7/portal", &[&directory], &Programs::ready()).unwrap();
+        machine
+    };
+    let (mut plain, mut observed) = (open(), open());
+    observed.observe_program();
+    for _ in 0..100 {
+        plain.step();
+        observed.step();
+        assert_eq!(plain.save(), observed.save());
+    }
+    assert!(plain.program_coverage().is_none() && observed.program_coverage().is_some());
+}
+
+#[test]
+#[cfg(feature = "cli")]
+fn coverage_is_written_in_three_forms() {
+    let directory = directory("coverage", &ob1("A I 0.0;\n= M 0.0;\nJC a;\nA I 0.1;\n= M 0.1;\na: NOP 0;"), "");
+    let text = "machine = \"g1_example\"\nplc = \"step7/portal\"\nwatch = [\"M0.0\"]\n[[step]]\nrun = \"10ms\"\n";
+    fs::write(directory.join("s.toml"), text).unwrap();
+    let opennck = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_opennck"));
+        let output = command.args(arguments).current_dir(&directory).output().unwrap();
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stdout).into_owned(),
+            String::from_utf8_lossy(&output.stderr).into_owned(),
+        )
+    };
+    // Without I 0.0: both contacts are false, the jump is not taken.
+    let line = "PLC step7/portal: 6 of 6 statements (100 %), 1 of 1 networks (100 %), 1 of 2 branches (50 %), 0 of 2 contacts true and false (0 %)\n";
+    for file in ["c.html", "c.json", "c.lcov"] {
+        let (code, out, err) = opennck(&["run", "s.toml", "--plc-coverage", file]);
+        assert!(code == Some(0) && out.ends_with(line), "{out}{err}");
+    }
+    let read = |file: &str| fs::read_to_string(directory.join(file)).unwrap();
+    let lcov = read("c.lcov");
+    let path = "SF:step7/portal/main.awl\n";
+    assert!(
+        lcov.contains(path) && lcov.contains("BRDA:5,0,0,1\nBRDA:5,0,1,0\n") && lcov.contains("DA:6,1\n"),
+        "{lcov}"
+    );
+    assert!(lcov.contains("BRF:6\nBRH:3\n") && lcov.ends_with("LF:6\nLH:6\nend_of_record\n"), "{lcov}");
+    let json: serde_json::Value = serde_json::from_str(&read("c.json")).unwrap();
+    assert_eq!(json["counts"]["branches"], serde_json::json!({ "covered": 1, "all": 2 }));
+    assert_eq!(json["unchanged"][0]["text"], "A I 0.0;");
+    let html = read("c.html");
+    let (first, source) =
+        (html.find("Contacts that never changed: 2").unwrap(), html.find("<h2>step7/portal/main.awl</h2>").unwrap());
+    assert!(first < source, "the list of contacts is before the sources");
+    let (code, _, _) = opennck(&["test", "s.toml", "--accept"]);
+    assert_eq!(code, Some(0));
+    let (code, out, err) = opennck(&["test", "s.toml", "--plc-coverage", "all.lcov"]);
+    assert!(code == Some(0) && out.contains(line), "{out}{err}");
+    assert_eq!(read("all.lcov"), lcov);
+    let (code, _, err) = opennck(&["run", "s.toml", "--plc-coverage", "c.txt"]);
+    assert!(code == Some(2) && err.contains(".html, .json or .lcov"), "{err}");
 }

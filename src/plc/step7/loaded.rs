@@ -1,15 +1,17 @@
 //! A program that a machine runs: its CPU between the memory of the machine and the calls of the machine.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::image::{AsBytes, Bytes, DataBlock, Memory, Names};
-use crate::plc::{PlcFault, PlcIo, PlcProgram};
+use crate::image::{AsBytes, Bytes, DataBlock, Format, Location, Memory, Names, Part};
+use crate::plc::{PlcFault, PlcIo, PlcProgram, ProgramCause, Tested};
 use crate::source::{Place, Problem};
 use crate::units::Time;
 
 use super::compile::{Settings, Source, compile};
-use super::engine::{Cpu, CpuOptions, CpuState, Stop};
+use super::coverage::Coverage;
+use super::engine::{Area, Cpu, CpuOptions, CpuState, Named, Seen, Stop};
 use super::folder::Folder;
 use super::program::Program;
 use super::text::finding::Finding;
@@ -24,6 +26,12 @@ pub struct LoadedProgram {
     map: Arc<Map>,
     /// The process image of the inputs, for one scan.
     inputs: Vec<u8>,
+    /// The paths of its sources and their texts.
+    files: Arc<[(String, String)]>,
+    /// The places of statements that causes have named.
+    places: Arc<Mutex<BTreeMap<u32, Arc<str>>>>,
+    /// The NC cycle of its last part, for causes.
+    ran: u64,
 }
 
 /// The folder of a program by its name: below the first of these directories that has it, or else below the first.
@@ -39,6 +47,7 @@ pub fn folder(name: &str, directories: &[&Path]) -> PathBuf {
 /// The folder cannot be read, or the compiler has findings; the problem is the first of them.
 pub fn load(folder: &Path, name: &str) -> Result<LoadedProgram, Problem> {
     let Folder { mut sources, toml } = Folder::read(folder)?;
+    let paths: Vec<String> = sources.iter().map(|source| source.name.clone()).collect();
     for source in &mut sources {
         // Messages of a run name the file within the folder, so that they are the same on every computer.
         let file = Path::new(&source.name).file_name();
@@ -59,6 +68,7 @@ pub fn load(folder: &Path, name: &str) -> Result<LoadedProgram, Problem> {
         Place::file(&folder.join(file).display().to_string()).at_line(line).problem(what, cure)
     })?;
     program.cycle = toml.cycle;
+    program.files = paths.into_iter().zip(program.files.iter().map(|(_, text)| text.clone())).collect();
     if let Some(period) = toml.ob35 {
         program.cpu =
             Cpu::new(program.cpu.shared_program(), CpuOptions { ob35_nanos: period.nanos(), ..program.cpu.options() });
@@ -80,6 +90,9 @@ impl LoadedProgram {
             cycle: None,
             map: Arc::new(Map::default()),
             inputs: Vec::new(),
+            files: sources.iter().map(|source| (source.name.clone(), source.text.clone())).collect(),
+            places: Arc::default(),
+            ran: 0,
         })
     }
 
@@ -95,13 +108,60 @@ impl LoadedProgram {
         self.cpu.program()
     }
 
+    fn cause(&self, seen: &Seen) -> Option<ProgramCause> {
+        let (part, bit) = self.place(seen.place)?;
+        let tested = seen.tested.iter().filter_map(|&(named, value)| match named {
+            Named::Timer(number) => Some(Tested::Timer(number, value)),
+            Named::Counter(number) => Some(Tested::Counter(number, value)),
+            Named::Area(..) | Named::Block(..) => {
+                let (part, bit) = self.place(named)?;
+                let (offset, bit) = (bit / 8, u8::try_from(bit % 8).ok()?);
+                Some(Tested::Bit(Location { part, offset, bit, width: 1, format: Format::Unsigned }, value))
+            }
+        });
+        Some(ProgramCause {
+            part,
+            bit,
+            bits: seen.bits,
+            value: seen.value,
+            statement: self.place_of(seen.pc),
+            tested: tested.collect(),
+        })
+    }
+
+    /// The place of a statement, whose text all of its causes share.
+    fn place_of(&self, pc: u32) -> Arc<str> {
+        let mut known = self.places.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(known.entry(pc).or_insert_with(|| self.cpu.program().place(pc).into()))
+    }
+
+    /// The part of the memory in which something is, and its address in bits.
+    fn place(&self, named: Named) -> Option<(Part, u32)> {
+        Some(match named {
+            Named::Area(Area::Inputs, bit) => (Part::Inputs, bit),
+            Named::Area(Area::Outputs, bit) => (Part::Outputs, bit),
+            Named::Area(Area::Flags, bit) => (Part::Flags, bit),
+            Named::Timer(number) => (Part::Timers, u32::from(number) * 16),
+            Named::Counter(number) => (Part::Counters, u32::from(number) * 16),
+            Named::Block(number, bit) => {
+                let (part, byte) = self.map.place(number, bit / 8)?;
+                (part, byte * 8 + bit % 8)
+            }
+        })
+    }
+
     /// Runs a part of a cycle on the memory, and shows its timers and counters there.
     fn run(
         &mut self,
         io: &mut PlcIo<'_, AsBytes>,
         run: impl FnOnce(&mut Cpu, &mut View<'_>, i64) -> Result<(), Box<Stop>>,
     ) -> Result<(), PlcFault> {
-        let Self { cpu, map, inputs, .. } = self;
+        let Self { cpu, map, inputs, ran, .. } = self;
+        if std::mem::replace(ran, io.cycle) != io.cycle
+            && let Some(observed) = &mut cpu.observed
+        {
+            observed.seen.clear();
+        }
         let sizes = cpu.program().sizes();
         for number in 0..sizes.counters {
             // A client or a scenario has set the counter.
@@ -208,11 +268,41 @@ impl PlcProgram for LoadedProgram {
             cycle: self.cycle,
             map: Arc::clone(&self.map),
             inputs: Vec::with_capacity(self.inputs.capacity()),
+            files: Arc::clone(&self.files),
+            places: Arc::clone(&self.places),
+            ran: self.ran,
         }))
     }
 
     fn reset(&mut self) {
+        let observed = self.cpu.observed.take();
         self.cpu = Cpu::new(self.cpu.shared_program(), self.cpu.options());
+        self.cpu.observed = observed;
+    }
+
+    fn observe(&mut self) {
+        self.cpu.observe();
+    }
+
+    fn observe_every_write(&mut self) {
+        self.cpu.observe();
+        if let Some(observed) = &mut self.cpu.observed {
+            observed.has_all_writes = true;
+        }
+    }
+
+    fn causes(&self, cycle: u64) -> Vec<ProgramCause> {
+        let Some(observed) = self.cpu.observed.as_ref().filter(|_| self.ran == cycle) else { return Vec::new() };
+        observed.seen.iter().filter_map(|seen| self.cause(seen)).collect()
+    }
+
+    fn symbols(&self) -> Option<&Arc<BTreeMap<String, String>>> {
+        Some(self.cpu.program().symbols())
+    }
+
+    fn coverage(&self) -> Option<Coverage> {
+        let observed = self.cpu.observed.as_ref()?;
+        Some(Coverage::of(&self.name, self.cpu.program(), observed, self.files.to_vec()))
     }
 }
 

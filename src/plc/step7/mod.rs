@@ -20,6 +20,7 @@
 //! ```
 
 mod compile;
+mod coverage;
 mod engine;
 mod folder;
 mod instruction;
@@ -32,6 +33,7 @@ mod text;
 mod view;
 
 pub use compile::{Compiled, Settings, Source, SourceKind, compile};
+pub use coverage::{Counts, Coverage, StatementCoverage};
 pub use engine::{Area, Areas, Cpu, CpuOptions, CpuState, Fault, OpenBlock, OwnMemory, Registers, Status, Stop};
 pub use folder::{Folder, PlcToml};
 pub use instruction::{BlockKind, BlockName};

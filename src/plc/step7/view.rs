@@ -54,6 +54,20 @@ impl Map {
         map
     }
 
+    /// The part and the byte of a byte of a data block.
+    pub(super) fn place(&self, number: u16, byte: u32) -> Option<(Part, u32)> {
+        let slot = self.slots.get(usize::from(number))?.checked_sub(1)?;
+        let Some(slot) = slot.checked_sub(INTERFACE) else { return Some((Part::Block(number), byte)) };
+        let byte = self.interface.get(slot as usize)?.get(byte as usize)?;
+        let part = match byte.side {
+            Side::Plc => Part::ToNck,
+            Side::Control => Part::FromNck,
+            Side::Hmi => Part::Hmi,
+            Side::Nowhere => return None,
+        };
+        Some((part, byte.offset))
+    }
+
     fn enter(&mut self, number: u16, slot: u32) {
         let index = usize::from(number);
         if self.slots.len() <= index {
@@ -155,6 +169,10 @@ impl Areas for View<'_> {
             None => self.own(block)?.len(),
         };
         Some(OpenBlock { length: u32::try_from(length).ok()?, ..block })
+    }
+
+    fn is_interface(&self, block: OpenBlock) -> bool {
+        block.slot & INTERFACE != 0
     }
 
     fn read<const N: usize>(&self, block: OpenBlock, byte: u32) -> Option<[u8; N]> {

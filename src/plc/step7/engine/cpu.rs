@@ -10,6 +10,7 @@ use crate::plc::step7::program::Program;
 use super::arithmetic::digits;
 use super::fault::Stop;
 use super::memory::OpenBlock;
+use super::observe::Observed;
 use super::registers::Registers;
 use super::timer::{Counter, Timer, bcd};
 
@@ -142,6 +143,8 @@ pub struct Cpu {
     pub(in crate::plc::step7) options: CpuOptions,
     pub(in crate::plc::step7) state: CpuState,
     pub(in crate::plc::step7) work: Work,
+    /// What is observed, if it is; no part of the state.
+    pub(in crate::plc::step7) observed: Option<Box<Observed>>,
 }
 
 impl Clone for Cpu {
@@ -149,6 +152,7 @@ impl Clone for Cpu {
     fn clone(&self) -> Self {
         let mut copy = Self::new(Arc::clone(&self.program), self.options);
         copy.state = self.state.clone();
+        copy.observed = self.observed.as_ref().map(|_| Box::new(Observed::new(self.program.code.len())));
         copy
     }
 }
@@ -183,7 +187,7 @@ impl Cpu {
             nests: Vec::with_capacity(depth * 8),
             ..Work::default()
         };
-        Self { program, options, state, work }
+        Self { program, options, state, work, observed: None }
     }
 
     /// The state, to save it.
@@ -202,6 +206,11 @@ impl Cpu {
             self.state = state;
         }
         fits
+    }
+
+    /// Observes the program from now on, for coverage and causes: slower, with the same results.
+    pub fn observe(&mut self) {
+        self.observed.get_or_insert_with(|| Box::new(Observed::new(self.program.code.len())));
     }
 
     /// The program.
