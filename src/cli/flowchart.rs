@@ -148,6 +148,7 @@ mod tests {
             taken: Taken::default(),
             remarks: Vec::new(),
             warnings: Vec::new(),
+            coverage: None,
         });
         let text = text(None, &nothing.collect::<Vec<_>>());
         let dashed = styled(&text, "stroke:#c00,stroke-dasharray:4");

@@ -13,6 +13,7 @@
 
 mod alarms;
 mod completions;
+mod coverage;
 mod diff;
 mod durations;
 mod example;

@@ -5,12 +5,13 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::coverage;
 use super::durations::duration;
 use super::files::Files;
 use super::output::Output;
 use crate::machine::Machine;
 use crate::plc::{PlcProcess, Programs};
-use crate::scenario::{Failure, Finished, Prepared, Scenario};
+use crate::scenario::{Failure, Finished, Named, Prepared, Scenario};
 use crate::source::{Place, Problem, Replacement};
 use crate::trace::{Curves, Window};
 use crate::units::Time;
@@ -24,6 +25,9 @@ pub(super) struct Options {
     /// Prints the smallest margin of each rule: cycles until a consequence would have been too late, or the distance of a compared value.
     #[arg(long)]
     margins: bool,
+    /// Runs this PLC program in place of that of the scenario: a registered name, or with a `/` the folder of a STEP 7 program.
+    #[arg(long, value_name = "NAME", conflicts_with = "plc_process")]
+    plc: Option<String>,
     /// Runs the PLC program in another process: starts this command, which maps the file `{image}`, and ends it after the run.
     ///
     /// The process answers each scan (lock-step), so the trace is the same to the byte in every run. It replaces `plc` of the scenario; in a
@@ -49,6 +53,9 @@ pub(super) struct Options {
     /// other units have a scale of their own. The values need not be watched.
     #[arg(long, value_name = "VALUE", value_delimiter = ',', requires = "svg")]
     curves: Vec<String>,
+    /// Writes which statements, networks, branches and contacts of STEP 7 programs ran in all scenarios together.
+    #[arg(long, value_name = "F.html|F.json|F.lcov")]
+    plc_coverage: Option<PathBuf>,
     /// With --svg or --vcd: shows only what happens from this time on, in seconds or with a unit.
     #[arg(long, value_name = "TIME", value_parser = time)]
     from: Option<Time>,
@@ -65,6 +72,9 @@ struct Waiting {
     file: Replacement,
     text: Form,
 }
+
+/// The file of the coverage, with its form.
+type Covering = (coverage::Form, Replacement);
 
 impl Options {
     /// The part of the trace that waveform and diagram show.
@@ -104,7 +114,7 @@ impl Options {
     }
 
     /// Opens all files before anything runs.
-    fn open(&self, runs: usize, inputs: Vec<PathBuf>) -> Result<Vec<Waiting>, Problem> {
+    fn open(&self, runs: usize, inputs: Vec<PathBuf>) -> Result<(Vec<Waiting>, Option<Covering>), Problem> {
         let wanted: [(&'static str, &Option<PathBuf>, Form); 3] = [
             ("--trace", &self.trace, |finished, _| finished.json_lines()),
             ("--vcd", &self.vcd, |finished, _| finished.vcd()),
@@ -112,6 +122,10 @@ impl Options {
         ];
         let mut files = Files::of(inputs);
         let mut waiting = Vec::new();
+        let coverage = match &self.plc_coverage {
+            Some(path) => Some((coverage::Form::of(path)?, files.open("--plc-coverage", path)?)),
+            None => None,
+        };
         for (option, path, text) in wanted {
             let Some(path) = path else {
                 continue;
@@ -124,7 +138,7 @@ impl Options {
             }
             waiting.push(Waiting { file: files.open(option, path)?, text });
         }
-        Ok(waiting)
+        Ok((waiting, coverage))
     }
 }
 
@@ -148,7 +162,7 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
         let curves = ready.first().map(|prepared| options.curves(prepared.machine())).transpose()?.flatten();
         Ok((window, curves, options.open(ready.len(), inputs)?))
     });
-    let (window, mut curves, mut waiting) = match opened {
+    let (window, mut curves, (mut waiting, covering)) = match opened {
         Ok(opened) => opened,
         Err(problem) => {
             output.error(problem);
@@ -156,6 +170,7 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
         }
     };
     let mut code = 0;
+    let mut covered = Vec::new();
     for (index, prepared) in ready.into_iter().enumerate() {
         if index > 0 {
             output.line("");
@@ -172,6 +187,9 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
         finished.window = window;
         output.print(&finished.text());
         code = code.max(result(&finished, output));
+        if let Some(one) = finished.session().machine().program_coverage().filter(|_| covering.is_some()) {
+            coverage::add(&mut covered, one);
+        }
         if options.margins {
             finished.margins().iter().for_each(|margin| output.line(margin));
         }
@@ -184,6 +202,13 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
                 output.error(problem);
                 code = 2;
             }
+        }
+    }
+    if let Some((form, mut file)) = covering {
+        covered.iter().for_each(|one| output.line(format!("PLC {}", one.summary())));
+        if let Err(problem) = form.text(&covered).and_then(|text| file.write(&text)).and_then(|()| file.finish()) {
+            output.error(problem);
+            code = 2;
         }
     }
     code
@@ -210,6 +235,15 @@ fn prepare(
         for case in &mut cases {
             case.plc = None;
             case.plc_process = Some((process.clone(), Place::file("--plc-process")));
+        }
+    }
+    if let Some(name) = &options.plc {
+        // A folder is one of the user's working directory, not of the scenario.
+        let folder = Path::new(name).canonicalize().ok().filter(|_| Programs::is_folder(name));
+        let text = folder.map_or_else(|| name.clone(), |folder| folder.to_string_lossy().into_owned());
+        for case in &mut cases {
+            case.plc = Some(Named { text: text.clone(), place: Place::file("--plc") });
+            case.plc_process = None;
         }
     }
     inputs.extend(cases.iter().flat_map(Scenario::inputs));

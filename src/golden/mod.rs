@@ -18,6 +18,7 @@ use crate::control::{Read, Taken, Texts};
 use crate::controls;
 use crate::image::Profile;
 use crate::plc::Programs;
+use crate::plc::step7::Coverage;
 use crate::scenario::{Compare, Failure, Finished, Scenario, included_by, names_machine};
 use crate::source::{Place, Problem, unreadable};
 use crate::trace::{Watch, difference, difference_in_sequence};
@@ -201,6 +202,8 @@ pub struct Exercised {
     pub remarks: Vec<String>,
     /// The findings about the files of the machine, in one line.
     pub warnings: Vec<String>,
+    /// What ran of its PLC program, if this is one with statements.
+    pub coverage: Option<Coverage>,
 }
 
 impl Exercised {
@@ -209,7 +212,13 @@ impl Exercised {
     pub fn of(finished: &Finished) -> Self {
         let machine = finished.session().machine();
         let (control, warnings) = (machine.control(), machine.warnings().to_vec());
-        Self { texts: control.texts(), taken: control.taken(), remarks: finished.remarks(), warnings }
+        Self {
+            texts: control.texts(),
+            taken: control.taken(),
+            remarks: finished.remarks(),
+            warnings,
+            coverage: machine.program_coverage(),
+        }
     }
 }
 

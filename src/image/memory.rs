@@ -48,6 +48,23 @@ impl Blocks {
         Some(&mut self.0[index].bytes)
     }
 
+    /// The place of a block in the list, which stays while no block is added.
+    #[must_use]
+    pub fn place(&self, number: u16) -> Option<usize> {
+        self.0.binary_search_by_key(&number, |block| block.number).ok()
+    }
+
+    /// The bytes of the block at a place of the list.
+    #[must_use]
+    pub fn at(&self, place: usize) -> Option<&Bytes> {
+        self.0.get(place).map(|block| &block.bytes)
+    }
+
+    /// The bytes of the block at a place of the list, mutable.
+    pub fn at_mut(&mut self, place: usize) -> Option<&mut Bytes> {
+        self.0.get_mut(place).map(|block| &mut block.bytes)
+    }
+
     /// Adds a block and replaces a block with the same number.
     pub fn put(&mut self, block: DataBlock) {
         match self.0.binary_search_by_key(&block.number, |other| other.number) {

@@ -82,6 +82,14 @@ impl Profile {
         self.windows(db).map(|window| (window.first, window.last + 1)).collect()
     }
 
+    /// The place of each byte of an interface data block: its part, and the byte in the part. `None` for a byte that does not exist.
+    #[must_use]
+    pub fn places(self, db: u16) -> Vec<Option<(Part, u32)>> {
+        let end = self.windows(db).map(|window| u32::from(window.last) + 1).max().unwrap_or(0);
+        let place = |byte| self.run(db, byte, byte).ok().map(|run| (run.part, run.offset));
+        (0..end).map(place).collect()
+    }
+
     /// The data block and byte that show a byte of a block; `None` if the profile does not show it.
     #[must_use]
     pub fn shown(self, block: Block, number: u8, byte: u16) -> Option<(u16, u16)> {

@@ -117,6 +117,7 @@ impl Clocked {
         *steps += 1;
         if let (Some((trace, _)), &mut Some(most)) = (trace, &mut *trace_bytes) {
             trace.extend(machine.recorder());
+            trace.note_fault(machine.recorder(), machine.program_fault());
             trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
             if trace.bytes() > most {
                 let mib = most / (1024 * 1024);

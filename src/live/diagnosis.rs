@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::SystemTime;
 
 use crate::machine::{Command, Machine, PlcOrder};
+use crate::plc::PlcDiagnosis;
 
 /// The maximum number of entries.
 const ENTRIES: usize = 100;
@@ -22,6 +23,8 @@ pub enum Event {
     Stop,
     /// STOP because of an error in the program.
     Fault,
+    /// An event with its number and additional information: why the program stopped the CPU.
+    Numbered(u16, [u8; 10]),
     /// A client requested a warm restart.
     WarmRestart,
     /// A client requested a cold restart.
@@ -74,7 +77,14 @@ impl Buffer {
         self.is_stopped = !self.is_stopped;
         let now = now();
         if self.is_stopped {
-            self.add(if machine.plc_fault().is_some() { Event::Fault } else { Event::Stop }, now);
+            match machine.plc_diagnosis() {
+                Some(PlcDiagnosis { cause, stop, information }) => {
+                    for event in cause.into_iter().chain([stop]) {
+                        self.add(Event::Numbered(event, information), now);
+                    }
+                }
+                None => self.add(if machine.plc_fault().is_some() { Event::Fault } else { Event::Stop }, now),
+            }
             return;
         }
         if let Some(restart) = self.restart.take() {

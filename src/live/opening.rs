@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 use super::record::Recording;
 use crate::image::{Preset, Profile};
 use crate::machine::{DatumValue, Machine, OpenOptions};
-use crate::plc::Programs;
+use crate::plc::{Programs, step7};
 use crate::scenario::{Heading, Named, Operator, Scenario, profile_named};
 use crate::source::{Place, Problem, Table, unreadable};
 use crate::trace::Watch;
@@ -44,8 +44,10 @@ pub struct Opened {
     pub entries: Option<Vec<(String, Option<f64>)>>,
     /// The path from which it was read.
     pub path: PathBuf,
-    /// The name of its PLC program.
+    /// The name of its PLC program, if the machine does not name it itself.
     pub plc: Option<String>,
+    /// The folder of its STEP 7 program, if the machine does not name it itself.
+    pub plc_folder: Option<PathBuf>,
     /// The command of its PLC program in another process.
     pub plc_process: Option<String>,
     /// The file of its PLC image.
@@ -82,8 +84,9 @@ impl Opening<'_> {
     fn alone(&self, path: &Path, profile: Profile, programs: &Programs) -> Result<Opened, Problem> {
         let preset = self.plc_image.map(Preset::read).transpose()?;
         let mut machine = Machine::open_with(path, OpenOptions { preset, profile, ..OpenOptions::default() })?;
-        if let Some(name) = self.plc {
-            machine.load_program(programs.program(name, machine.names())?);
+        match self.plc {
+            Some(name) => machine.load_named(name, &[Path::new(""), path], programs)?,
+            None => machine.load_own_program(programs)?,
         }
         Ok(Opened {
             machine,
@@ -91,6 +94,10 @@ impl Opening<'_> {
             watch: Watch::default(),
             entries: None,
             path: path.to_owned(),
+            plc_folder: self
+                .plc
+                .filter(|name| Programs::is_folder(name))
+                .map(|name| step7::folder(name, &[Path::new(""), path])),
             plc: self.plc.map(str::to_owned),
             plc_process: None,
             image: self.plc_image.map(Path::to_owned),
@@ -120,13 +127,15 @@ impl Opening<'_> {
             path = machine.to_owned();
         }
         if let Some(plc) = self.plc {
-            scenario.plc = Some(override_named("--plc", plc));
+            let folder = Programs::is_folder(plc).then(|| absolute(&step7::folder(plc, &[Path::new(""), &path])));
+            scenario.plc = Some(override_named("--plc", folder.as_deref().unwrap_or(plc)));
             scenario.plc_process = None;
         }
         if let Some(image) = self.plc_image {
             scenario.plc_image = Some(override_named("--plc-image", &absolute(image)));
         }
         let image = scenario.image_file()?;
+        let plc_folder = scenario.plc_folder();
         let prepared = scenario.prepare(profile.unwrap_or(scenario.profiles[0]), programs)?;
         let (mut machine, operator, watch) = prepared.into_operator();
         machine.begin_program()?;
@@ -137,6 +146,7 @@ impl Opening<'_> {
             entries: scenario.watch.map(|all| all.into_iter().map(|entry| (entry.name.text, entry.step)).collect()),
             path,
             plc: scenario.plc.map(|plc| plc.text),
+            plc_folder,
             plc_process: scenario.plc_process.map(|(process, _)| process.command),
             image,
             plant: scenario.plant,
@@ -159,12 +169,16 @@ impl Opened {
         }
         let machine = if self.path.exists() { from(path, &self.path)? } else { built_in(path, &self.path)? };
         let image = self.image.as_deref().map(|image| from(path, image)).transpose()?;
+        let folder = self.plc_folder.as_deref().map(|folder| from(path, folder)).transpose()?;
+        // A folder is told from a name by its `/`.
+        let folder = folder.map(|folder| if folder.contains('/') { folder } else { format!("./{folder}") });
+        let plc = folder.as_deref().or(self.plc.as_deref());
         let title = format!("A session with {}", machine.rsplit('/').next().unwrap_or_default());
         let heading = Heading {
             title: &title,
             machine: &machine,
             profile: self.machine.names().profile,
-            plc: self.plc.as_deref(),
+            plc,
             plc_image: image.as_deref(),
             watch: self.entries.as_deref(),
             plant: self.plant.as_ref(),

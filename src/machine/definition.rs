@@ -8,6 +8,7 @@ use super::delay::Delay;
 use crate::control::{Control, Finding};
 use crate::image::{Location, Memory, Names};
 use crate::plant::{Layout, Switch};
+use crate::source::Place;
 use crate::units::{AxisNumber, Time};
 
 /// The definition of a machine from its files. It does not change after opening, and all forks share it.
@@ -19,6 +20,8 @@ pub(super) struct Definition {
     pub(super) unwired: Vec<(AxisNumber, Switch, Location)>,
     /// The memory after power on: presets.
     pub(super) memory: Memory,
+    /// The PLC program that `plant.toml` names, and where.
+    pub(super) plc: Option<(String, Place)>,
     /// The cycle of the PLC program; the NC cycle if not defined.
     pub(super) plc_cycle: Option<Time>,
     /// How late the PLC's half reaches the control, and the NCK's half the PLC program.
@@ -44,6 +47,23 @@ pub(super) struct Fingerprints {
 }
 
 impl Definition {
+    /// The same with the memory after power on and the cycle of a PLC program.
+    pub(super) fn with_program(&self, memory: Memory, plc_cycle: Option<Time>) -> Self {
+        Self {
+            names: self.names.clone(),
+            layout: self.layout.clone(),
+            unwired: self.unwired.clone(),
+            memory,
+            plc: self.plc.clone(),
+            plc_cycle,
+            delays: self.delays,
+            control: self.control.clone_box(),
+            fingerprints: OnceLock::new(),
+            findings: self.findings.clone(),
+            warnings: self.warnings.clone(),
+        }
+    }
+
     pub(super) fn fingerprints(&self) -> Fingerprints {
         *self.fingerprints.get_or_init(|| Fingerprints {
             plc_image: hash(&postcard::to_stdvec(&self.memory).expect("plain data can always be written")),

@@ -41,13 +41,15 @@ pub use conditions::{Subject, Tested};
 pub use open::OpenOptions;
 pub use saved::Snapshot;
 
+use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use crate::control::{Control, Finding};
-use crate::image::{Memory, Names, OverrideCoding, PartBytes};
+use crate::image::{Location, Memory, Names, OverrideCoding, PartBytes};
 use crate::nc_program::Program;
-use crate::plc::PlcProgram;
-use crate::source::Problem;
+use crate::plc::{PlcDiagnosis, PlcProgram, ProgramCause, Programs, step7};
+use crate::source::{Place, Problem};
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Time};
 use crate::variables::{RaisedAlarm, Variables};
@@ -80,10 +82,95 @@ impl Machine {
         &self.definition.warnings
     }
 
-    /// Loads a PLC program. Its OB100 runs in the next step.
-    pub fn load_program(&mut self, program: Box<dyn PlcProgram>) {
+    /// Loads a PLC program. Its OB100 runs in the next step. The memory after power on gets the data blocks of the program, and its areas
+    /// become as large as the program needs them.
+    pub fn load_program(&mut self, mut program: Box<dyn PlcProgram>) {
+        let mut memory = self.definition.memory.clone();
+        program.install(&mut memory, &self.definition.names);
+        let is_changed = memory != self.definition.memory;
+        if is_changed || program.cycle().is_some() {
+            let plc_cycle = program.cycle().or(self.definition.plc_cycle);
+            self.definition = Arc::new(self.definition.with_program(memory, plc_cycle));
+        }
+        if is_changed {
+            program.install(&mut self.state.memory, &self.definition.names);
+            self.before = Before::new(&self.state.memory);
+        }
         self.program = Some(program);
         self.state.plc.restart();
+    }
+
+    /// Loads the PLC program with a name: a registered one, or with a `/` in the name the folder of a STEP 7 program, which is searched in
+    /// `directories`, in order.
+    ///
+    /// # Errors
+    /// No program has this name, it cannot run on this machine, or its sources have findings.
+    pub fn load_named(&mut self, name: &str, directories: &[&Path], programs: &Programs) -> Result<(), Problem> {
+        let program = if Programs::is_folder(name) {
+            step7::load(&step7::folder(name, directories), name)?.boxed()
+        } else {
+            programs.program(name, self.names())?
+        };
+        self.load_program(program);
+        Ok(())
+    }
+
+    /// Loads the PLC program that `plant.toml` names, if it does.
+    ///
+    /// # Errors
+    /// As [`Machine::load_named`], with the place in the file.
+    pub fn load_own_program(&mut self, programs: &Programs) -> Result<(), Problem> {
+        let Some((name, place)) = self.definition.plc.clone() else { return Ok(()) };
+        let directory = Path::new(&*place.file).parent().map(Path::to_owned).unwrap_or_default();
+        self.load_named(&name, &[&directory], programs).map_err(|problem| problem.at(&place))
+    }
+
+    /// The name of the PLC program in `plant.toml`, and where it is.
+    #[must_use]
+    pub fn own_program(&self) -> Option<(&str, &Place)> {
+        self.definition.plc.as_ref().map(|(name, place)| (name.as_str(), place))
+    }
+
+    /// Observes the PLC program from now on, for [`Machine::program_causes`] and [`Machine::program_coverage`].
+    pub fn observe_program(&mut self) {
+        if let Some(program) = &mut self.program {
+            program.observe();
+        }
+    }
+
+    /// Why the PLC program changed bits in the last cycle, if it is observed and says so.
+    #[must_use]
+    pub fn program_causes(&self) -> Vec<ProgramCause> {
+        self.program.as_ref().map_or_else(Vec::new, |program| program.causes(self.state.cycle))
+    }
+
+    /// The symbols of the PLC program for bits, timers and counters, by their addresses such as `I1.0` and `T5`; none if it has no table.
+    #[must_use]
+    pub fn program_symbols(&self) -> Option<&Arc<BTreeMap<String, String>>> {
+        self.program.as_ref()?.symbols()
+    }
+
+    /// What the PLC program does with a bit, or with the word of a timer, in its next scan: the statements that write it, in order, with the operands that decide. Empty
+    /// if it writes it in no statement that runs, or does not say so.
+    #[must_use]
+    pub fn program_writes(&self, location: Location) -> Vec<ProgramCause> {
+        let Ok(mut next) = self.fork() else { return Vec::new() };
+        let Some(program) = &mut next.program else { return Vec::new() };
+        program.observe_every_write();
+        for _ in 0..=self.state.plc.wait {
+            next.step();
+            next.drain();
+        }
+        let bit = location.offset * 8 + u32::from(location.bit);
+        let is_meant =
+            |cause: &ProgramCause| (cause.part, cause.bit, cause.bits) == (location.part, bit, location.width.into());
+        next.program_causes().into_iter().filter(is_meant).collect()
+    }
+
+    /// What ran of the PLC program since it is observed, if it is a program with statements.
+    #[must_use]
+    pub fn program_coverage(&self) -> Option<step7::Coverage> {
+        self.program.as_ref()?.coverage()
     }
 
     /// Number of cycles run so far.
@@ -213,6 +300,18 @@ impl Machine {
     #[must_use]
     pub fn plc_fault(&self) -> Option<&str> {
         self.state.plc.fault.as_deref()
+    }
+
+    /// The fault that stopped the PLC program, if it is a program with a place in its sources.
+    #[must_use]
+    pub fn program_fault(&self) -> Option<&str> {
+        self.plc_fault().filter(|_| self.state.plc.diagnosis.is_some())
+    }
+
+    /// The entries of this fault for the diagnostic buffer, if the program is one of a CPU with such entries.
+    #[must_use]
+    pub fn plc_diagnosis(&self) -> Option<PlcDiagnosis> {
+        self.state.plc.diagnosis
     }
 
     /// The coding of overrides, for values such as `"100%"`.

@@ -106,6 +106,7 @@ impl Machine {
         });
         let layout = Layout::new(&plant, &names.axes, &hints, &groupings);
         let definition = Definition {
+            plc: plant.plc,
             plc_cycle: plant.plc_cycle,
             delays: [plant.to_nck_delay, plant.from_nck_delay],
             unwired: unwired(&layout, &names),

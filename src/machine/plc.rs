@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use crate::plc::PlcDiagnosis;
 use crate::units::Time;
 
 /// The state of the PLC without its program.
@@ -20,6 +21,8 @@ pub(super) struct PlcState {
     pub(super) scans: VecDeque<u64>,
     /// The fault of its program.
     pub(super) fault: Option<String>,
+    /// Its entries for the diagnostic buffer.
+    pub(super) diagnosis: Option<PlcDiagnosis>,
 }
 
 impl PlcState {
@@ -29,5 +32,6 @@ impl PlcState {
         self.started = false;
         self.wait = 0;
         self.fault = None;
+        self.diagnosis = None;
     }
 }

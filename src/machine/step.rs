@@ -6,7 +6,7 @@ use super::written::Force;
 use crate::control::{ControlCommand, ControlSide, CycleTimes};
 use crate::image::AsBytes;
 use crate::motion::Feedback;
-use crate::plc::PlcIo;
+use crate::plc::{PlcFault, PlcIo, PlcProgram};
 use crate::trace::By;
 use crate::units::{AxisSet, PerAxis};
 use crate::variables::{AxisValues, Happening, RParameters, Variables};
@@ -59,13 +59,27 @@ impl Machine {
         }
         if self.state.plc.wait > 0 {
             self.state.plc.wait -= 1;
+            if self.program.as_ref().is_some_and(|program| program.has_interrupts()) {
+                self.run_program(|program, io| program.interrupt(io));
+            }
             return false;
         }
         let cycle = self.cycle_time();
         self.state.plc.wait = self.definition.plc_cycle.map_or(0, |every| every.in_cycles(cycle) - 1);
-        let Some(program) = &mut self.program else {
-            return true;
-        };
+        if self.program.is_some() {
+            let started = std::mem::replace(&mut self.state.plc.started, true);
+            self.run_program(|program, io| {
+                let startup = if started { Ok(()) } else { program.startup(io) };
+                startup.and_then(|()| program.scan(io))
+            });
+            self.state.plc.last_scan = self.state.time;
+        }
+        true
+    }
+
+    /// Runs a part of the program on the memory. If it fails, the PLC stops.
+    fn run_program(&mut self, run: impl FnOnce(&mut dyn PlcProgram, &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault>) {
+        let Some(program) = &mut self.program else { return };
         let memory = &mut self.state.memory;
         let mut io = PlcIo::<AsBytes> {
             to_nck: &mut memory.to_nck,
@@ -82,16 +96,13 @@ impl Machine {
             cycle_time: self.state.time - self.state.plc.last_scan,
             names: &self.definition.names,
         };
-        self.state.plc.last_scan = self.state.time;
-        let started = std::mem::replace(&mut self.state.plc.started, true);
-        let startup = if started { Ok(()) } else { program.startup(&mut io) };
-        if let Err(fault) = startup.and_then(|()| program.scan(&mut io)) {
+        if let Err(fault) = run(&mut **program, &mut io) {
             self.state.plc.stopped = true;
             self.state.plc.fault = Some(fault.reason);
+            self.state.plc.diagnosis = fault.diagnosis;
             let event = self.control.command(&ControlCommand::PlcMissing);
             self.record_happening(Happening::PlcStopped, By::Plc, event);
         }
-        true
     }
 
     /// The control stops the PLC program.

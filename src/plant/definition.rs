@@ -18,6 +18,8 @@ use crate::units::{Position, Time};
 pub struct PlantDefinition {
     /// Time between two PLC scans; `None` means the NC cycle.
     pub plc_cycle: Option<Time>,
+    /// The PLC program of the machine: a registered name, or with a `/` a folder beside the file; and where this is written.
+    pub plc: Option<(String, Place)>,
     /// How late the PLC's half of the interface reaches the control (O-28).
     pub to_nck_delay: Time,
     /// How late the control's half reaches the PLC program (O-28).
@@ -216,6 +218,9 @@ impl PlantDefinition {
         if let Some(node) = table.take("machine") {
             let mut machine = node.into_table("the table [machine]")?;
             plant.plc_cycle = machine.take("plc_cycle").map(|node| plc_cycle(&node)).transpose()?;
+            if let Some(node) = machine.take("plc") {
+                plant.plc = Some((node.text("the name of a PLC program")?.to_owned(), node.place.clone()));
+            }
             for (key, delay) in
                 [("to_nck_delay", &mut plant.to_nck_delay), ("from_nck_delay", &mut plant.from_nck_delay)]
             {

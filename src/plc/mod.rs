@@ -47,8 +47,14 @@ pub use programs::{
 pub use registry::Programs;
 pub use spin_ctrl::{SpinCtrl, SpinCtrlInputs, SpinCtrlOutputs};
 
-use crate::image::AsBytes;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::{AsBytes, Location, Memory, Names, Part};
 use crate::source::Problem;
+use crate::units::Time;
 
 /// The PLC program cannot continue: the PLC stops, and the NCK detects the missing sign of life (alarm 2000).
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -56,14 +62,55 @@ use crate::source::Problem;
 pub struct PlcFault {
     /// The reason, in the words of the program.
     pub reason: String,
+    /// The entries of the diagnostic buffer, if the program is one of a CPU with such entries.
+    pub diagnosis: Option<PlcDiagnosis>,
+}
+
+/// Why a CPU stopped, as its diagnostic buffer has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlcDiagnosis {
+    /// The event that led to STOP, if there is one.
+    pub cause: Option<u16>,
+    /// The event of the change to STOP.
+    pub stop: u16,
+    /// Additional information of both.
+    pub information: [u8; 10],
 }
 
 impl PlcFault {
     /// A fault with the given reason.
     #[must_use]
     pub fn new(reason: impl Into<String>) -> Self {
-        Self { reason: reason.into() }
+        Self { reason: reason.into(), diagnosis: None }
     }
+}
+
+/// Why a program changed bits of the memory: the statement that wrote them, and the operands that made its result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProgramCause {
+    /// The first of the bits.
+    pub part: Part,
+    /// Its address in bits, from the beginning of the part.
+    pub bit: u32,
+    /// The number of bits.
+    pub bits: u32,
+    /// The new value of a single bit.
+    pub value: bool,
+    /// The statement with its place: `FC10, network 3, statement 5 (motor.awl:12)`.
+    pub statement: Arc<str>,
+    /// The operands that were decisive, with their values.
+    pub tested: Vec<Tested>,
+}
+
+/// An operand that a program has tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tested {
+    /// A bit of the memory.
+    Bit(Location, bool),
+    /// The status of a timer.
+    Timer(u16, bool),
+    /// Whether a counter is not 0.
+    Counter(u16, bool),
 }
 
 /// A PLC program of any kind. It sees the parts of the interface as bytes, independent of the control. [`PlcIo::typed`] gives the
@@ -81,6 +128,28 @@ pub trait PlcProgram: Send {
         Ok(())
     }
 
+    /// Called when a machine loads the program, with the memory after power on: the program can enlarge areas and add data blocks of its
+    /// own. It may be called again, with the memory of a machine that runs.
+    fn install(&mut self, _memory: &mut Memory, _names: &Names) {}
+
+    /// The time between two scans, rounded up to whole NC cycles; `None` if the machine decides.
+    fn cycle(&self) -> Option<Time> {
+        None
+    }
+
+    /// Whether [`PlcProgram::interrupt`] is to be called.
+    fn has_interrupts(&self) -> bool {
+        false
+    }
+
+    /// Called in each NC cycle without a scan: what runs between two scans, such as OB35.
+    ///
+    /// # Errors
+    /// The program cannot continue; the PLC stops.
+    fn interrupt(&mut self, _io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        Ok(())
+    }
+
     /// OB100: runs once after power on and after each restart of the PLC, before the first scan.
     ///
     /// # Errors
@@ -92,6 +161,28 @@ pub trait PlcProgram: Send {
     /// # Errors
     /// The program cannot continue; the PLC stops.
     fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault>;
+
+    /// Observes the program from now on, for [`PlcProgram::causes`] and [`PlcProgram::coverage`]: slower, with the same results. What was
+    /// observed is no part of the state.
+    fn observe(&mut self) {}
+
+    /// The same, and from now on [`PlcProgram::causes`] has every write of a bit, also of one with its present value.
+    fn observe_every_write(&mut self) {}
+
+    /// Why the program changed bits in this cycle, in the order of its statements, if it is observed.
+    fn causes(&self, _cycle: u64) -> Vec<ProgramCause> {
+        Vec::new()
+    }
+
+    /// The symbols of the program for bits, timers and counters, by their addresses such as `I1.0` and `T5`.
+    fn symbols(&self) -> Option<&Arc<BTreeMap<String, String>>> {
+        None
+    }
+
+    /// What ran of the program since it is observed, if it is a program with statements.
+    fn coverage(&self) -> Option<step7::Coverage> {
+        None
+    }
 
     /// The complete state of the program, as bytes.
     fn save(&self) -> Vec<u8>;

@@ -89,6 +89,12 @@ impl Programs {
         starter(process, memory, names, cycle)
     }
 
+    /// Whether a name is the folder of a STEP 7 program: it has a `/`.
+    #[must_use]
+    pub fn is_folder(name: &str) -> bool {
+        name.contains('/')
+    }
+
     /// The names, in alphabetical order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.named.keys().map(String::as_str)
@@ -101,7 +107,11 @@ impl Programs {
     pub fn program(&self, name: &str, machine: &Names) -> Result<Box<dyn PlcProgram>, Problem> {
         let Some(constructor) = self.named.get(name) else {
             let known = self.names().collect::<Vec<_>>().join("`, `");
-            let cure = did_you_mean(name, self.names(), "register your own program under this name");
+            let cure = did_you_mean(
+                name,
+                self.names(),
+                "register your own program under this name; the folder of a STEP 7 program has a `/`",
+            );
             return Err(Problem::new(format!("expected one of the PLC programs `{known}`, found `{name}`"), cure));
         };
         constructor(machine)

@@ -17,7 +17,7 @@ use crate::expression::Expression;
 use crate::image::{Preset, Profile};
 use crate::machine::{Command, Machine, OpenOptions};
 use crate::monitor::{Claim, Rule};
-use crate::plc::Programs;
+use crate::plc::{Programs, step7};
 use crate::source::{Place, Problem};
 use crate::trace::{Curves, Head, Panel, Watch, Window};
 use crate::units::{ChannelNumber, Time};
@@ -96,10 +96,17 @@ impl Scenario {
         if let Some(path) = selected {
             machine.queue(Command::SelectProgram { channel: ChannelNumber::FIRST, path })?;
         }
-        // The program is looked up last, so that mistakes in the file are reported first.
-        if let Some(name) = &self.plc {
-            let program = programs.program(&name.text, machine.names());
-            machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
+        // A registered program is looked up last, so that mistakes in the file are reported first. One in a folder is there already.
+        match &self.plc {
+            Some(name) if !Programs::is_folder(&name.text) => {
+                let program = programs.program(&name.text, machine.names());
+                machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
+            }
+            None if self.plc_process.is_none() => match machine.own_program() {
+                Some((name, _)) if !Programs::is_folder(name) => machine.load_own_program(programs)?,
+                _ => {}
+            },
+            _ => {}
         }
         if let Some((process, place)) = &self.plc_process {
             let program = programs.process(process, machine.memory(), machine.names(), machine.cycle_time());
@@ -146,12 +153,37 @@ impl Scenario {
         let scenario = Some(self.path.clone());
         let options = OpenOptions { plant_over: self.plant.clone(), profile, preset, scenario };
         let opened = read(&self.directory().join(&self.machine.text));
-        opened
+        let mut machine = opened
             .and_then(|(mut configuration, plant)| {
                 configuration.store(&self.machine_data)?;
                 Machine::of(&*configuration, plant, options)
             })
-            .map_err(|problem| problem.at(&self.machine.place))
+            .map_err(|problem| problem.at(&self.machine.place))?;
+        self.load_folder(&mut machine)?;
+        Ok(machine)
+    }
+
+    /// Loads a program in a folder, of the scenario or of its machine. Its data blocks and areas can be named by the steps.
+    fn load_folder(&self, machine: &mut Machine) -> Result<(), Problem> {
+        let programs = Programs::ready();
+        if let Some(name) = &self.plc {
+            if Programs::is_folder(&name.text) {
+                let beside = self.directory().join(&self.machine.text);
+                let loaded = machine.load_named(&name.text, &[self.directory(), &beside], &programs);
+                loaded.map_err(|problem| problem.at(&name.place))?;
+            }
+        } else if self.plc_process.is_none() && machine.own_program().is_some_and(|(name, _)| Programs::is_folder(name))
+        {
+            machine.load_own_program(&programs)?;
+        }
+        Ok(())
+    }
+
+    /// The folder of its STEP 7 program, if it has one.
+    #[must_use]
+    pub fn plc_folder(&self) -> Option<PathBuf> {
+        let name = self.plc.as_ref().filter(|name| Programs::is_folder(&name.text))?;
+        Some(step7::folder(&name.text, &[self.directory(), &self.directory().join(&self.machine.text)]))
     }
 
     /// The file of the PLC image of the scenario, if it has one.
@@ -176,6 +208,7 @@ impl Scenario {
         }
         inputs.push(self.directory().join(&self.machine.text));
         inputs.extend(self.image_file().ok().flatten());
+        inputs.extend(self.plc_folder());
         inputs.extend(self.plc_process.iter().flat_map(|(process, _)| process.files()));
         inputs
     }

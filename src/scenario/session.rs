@@ -15,12 +15,12 @@ use super::programs::Text;
 use super::steps::{Action, Reader, Steps};
 use super::values::Setting;
 use crate::expression::{Expression, Followed};
-use crate::image::Location;
+use crate::image::{Format, Location, Part};
 use crate::machine::{Command, Machine};
 use crate::monitor::{Claim, Consequence, Rule, Span};
-use crate::plc::PlcProgram;
+use crate::plc::{PlcProgram, ProgramCause, Programs, Tested, step7};
 use crate::source::{Place, Problem};
-use crate::trace::{Head, Trace, Watch, Window};
+use crate::trace::{Head, ProgramRow, Trace, Watch, Window};
 use crate::units::Time;
 
 /// A machine with its growing trace.
@@ -49,26 +49,42 @@ impl Session {
     /// # Errors
     /// The files of the machine are invalid.
     pub fn open(machine: impl AsRef<Path>) -> Result<Self, Failure> {
-        Ok(Self::new(Machine::open(machine)?))
+        let mut machine = Machine::open(machine)?;
+        machine.load_own_program(&Programs::ready())?;
+        Ok(Self::new(machine))
     }
 
     /// A session with a machine that is already open.
     #[must_use]
-    pub fn new(machine: Machine) -> Self {
-        Self {
-            trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time()),
-            watch: Watch::default(),
-            book: Book::new(&machine),
-            texts: Vec::new(),
-            machine,
+    pub fn new(mut machine: Machine) -> Self {
+        machine.observe_program();
+        let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time());
+        if let Some(symbols) = machine.program_symbols() {
+            trace.name_program(symbols);
         }
+        Self { trace, watch: Watch::default(), book: Book::new(&machine), texts: Vec::new(), machine }
     }
 
     /// The same session with a PLC program.
     #[must_use]
     pub fn with_program(mut self, program: Box<dyn PlcProgram>) -> Self {
         self.machine.load_program(program);
+        self.machine.observe_program();
+        self.trace.remember(self.machine.memory());
+        if let Some(symbols) = self.machine.program_symbols() {
+            self.trace.name_program(symbols);
+        }
         self
+    }
+
+    /// The same session with the STEP 7 program in a folder.
+    ///
+    /// # Errors
+    /// The folder cannot be read, or its sources have findings.
+    pub fn with_step7(self, folder: impl AsRef<Path>) -> Result<Self, Failure> {
+        let folder = folder.as_ref();
+        let name = folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        Ok(self.with_program(step7::load(folder, &name)?.boxed()))
     }
 
     /// The machine.
@@ -445,6 +461,8 @@ impl Session {
     pub(super) fn cycle(&mut self) {
         self.machine.step();
         self.trace.extend(self.machine.recorder());
+        self.trace.note_fault(self.machine.recorder(), self.machine.program_fault());
+        self.trace.extend_causes(self.machine.cycle(), program_rows(&self.machine));
         self.book.note_changes(&self.machine);
         self.machine.drain();
         let (machine, cycle) = (&self.machine, self.machine.cycle());
@@ -483,4 +501,22 @@ impl Session {
         expression.follow(followed);
         Ok(expression)
     }
+}
+
+/// Why the PLC program changed bits in the last cycle, for the trace.
+fn program_rows(machine: &Machine) -> impl Iterator<Item = ProgramRow> {
+    let word = |part, number: u16| {
+        let offset = u32::from(number) * 2;
+        Location { part, offset, bit: 0, width: 16, format: Format::Unsigned }
+    };
+    let tested = move |tested: &Tested| match *tested {
+        Tested::Bit(location, value) => (location, value),
+        Tested::Timer(number, status) => (word(Part::Timers, number), status),
+        Tested::Counter(number, status) => (word(Part::Counters, number), status),
+    };
+    machine.program_causes().into_iter().map(move |cause| {
+        let ProgramCause { part, bit, bits, value, statement, tested: operands } = cause;
+        let tested = operands.iter().map(tested).collect();
+        ProgramRow { cycle: machine.cycle(), part, bit, bits, value, statement, tested }
+    })
 }

@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 
 use super::naming::signal_named;
 use super::session::Session;
-use crate::image::{Location, Writer};
+use crate::image::{Format, Location, Part, Writer};
 use crate::machine::{Subject, Tested};
+use crate::plc;
 use crate::source::Problem;
 
 impl Session {
@@ -27,7 +28,11 @@ impl Session {
         let value = machine.memory().read(location) != 0;
         let head = format!("{:>9}  {shown} is {}", self.time().to_string(), u8::from(value));
         if names.writer(location) != Some(Writer::Nck) {
-            return Ok(format!("{head}: the control does not write it; {}\n", self.writer(location)));
+            let text = format!("{head}: the control does not write it; {}\n", self.writer(location));
+            let asked = BTreeSet::from([(location, !value)]);
+            let mut tree = Tree { session: self, complete, recursive: true, text, asked };
+            tree.program(location, !value, 1);
+            return Ok(tree.text);
         }
         let Some(tested) = machine.conditions(location, !value) else {
             let cure =
@@ -45,7 +50,9 @@ impl Session {
     fn shown(&self, location: Location) -> String {
         let names = self.machine().names();
         let address = names.address(location).to_string();
-        names.symbol(location).map_or_else(|| address.clone(), |symbol| format!("{symbol} ({address})"))
+        let own = self.machine().program_symbols().and_then(|symbols| symbols.get(&address));
+        let own = own.map(|symbol| format!("\"{symbol}\""));
+        names.symbol(location).or(own).map_or_else(|| address.clone(), |symbol| format!("{symbol} ({address})"))
     }
 
     /// Who wrote a signal last.
@@ -146,6 +153,32 @@ impl Tree<'_> {
         }
     }
 
+    /// The statements of the PLC program that keep a bit from a value, and the contacts that are open in them.
+    fn program(&mut self, location: Location, wanted: bool, depth: usize) {
+        let session = self.session;
+        for cause in session.machine().program_writes(location).into_iter().filter(|cause| cause.value != wanted) {
+            self.line(depth, false, &cause.statement);
+            for tested in cause.tested {
+                match tested {
+                    plc::Tested::Bit(operand, value) => self.signal(operand, !value, false, depth + 1),
+                    plc::Tested::Timer(number, status) => self.word(Part::Timers, number, status, depth + 1),
+                    plc::Tested::Counter(number, status) => self.word(Part::Counters, number, status, depth + 1),
+                }
+            }
+        }
+    }
+
+    /// A timer or a counter, and the statement that does not start it.
+    fn word(&mut self, part: Part, number: u16, status: bool, depth: usize) {
+        let offset = u32::from(number) * 2;
+        let location = Location { part, offset, bit: 0, width: 16, format: Format::Unsigned };
+        let shown = self.session.shown(location);
+        self.line(depth, false, &format!("{shown} = {}, wanted {}", u8::from(status), u8::from(!status)));
+        if self.asked.insert((location, !status)) {
+            self.program(location, !status, depth + 1);
+        }
+    }
+
     fn signal(&mut self, location: Location, wanted: bool, holds: bool, depth: usize) {
         let session = self.session;
         let machine = session.machine();
@@ -160,6 +193,9 @@ impl Tree<'_> {
                     text += ", on its way to the control (to_nck_delay)";
                 }
                 self.line(depth, holds, &text);
+                if !holds && self.asked.insert((location, wanted)) {
+                    self.program(location, wanted, depth + 1);
+                }
             }
             Some(_) if !self.recursive => self.line(depth, holds, &text),
             Some(_) if !self.asked.insert((location, wanted)) => self.line(depth, holds, &format!("{text}, see above")),

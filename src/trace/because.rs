@@ -1,6 +1,9 @@
 //! Causes as text: the rule that allowed a transition, and the inputs that it tested, with their values.
 
+use super::Trace;
+use super::history::ProgramRow;
 use super::printable::signal_name;
+use crate::image::Names;
 use crate::units::Position;
 use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, six_decimals};
 
@@ -11,6 +14,17 @@ pub(super) fn because(event: &Event, describe: &dyn Describe) -> String {
     let text = Some(rule.text.to_owned()).filter(|text| !text.is_empty());
     let inputs = event.inputs.iter().filter_map(|input| shown(input, describe));
     format!("{}: {}", rule.id, text.into_iter().chain(inputs).collect::<Vec<_>>().join(", "))
+}
+
+/// The statement that changed a bit, and the operands that made its result: `OB1, network 2, statement 3 (main.awl:8): I0.0 = 1`.
+pub(super) fn by_program(trace: &Trace, row: &ProgramRow, names: &Names) -> String {
+    let tested = row.tested.iter().map(|&(location, value)| {
+        let address = names.address(location).to_string();
+        let name = names.symbol(location).unwrap_or_else(|| trace.program_name(&address));
+        format!("{name} = {}", u8::from(value))
+    });
+    let tested: Vec<_> = tested.collect();
+    if tested.is_empty() { row.statement.to_string() } else { format!("{}: {}", row.statement, tested.join(", ")) }
 }
 
 fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {

@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use super::Trace;
-use super::because::{because, input_name};
+use super::because::{because, by_program, input_name};
+use super::history::ProgramRow;
 use super::lines::{Line, LineKind};
 use super::printable::signal_at;
-use crate::image::Names;
+use crate::image::{Location, Names, Part};
 use crate::units::Time;
 use crate::variables::{AlarmNumber, Describe, Event, Input, Place, SignalBit, place_name, six_decimals};
 
@@ -42,6 +43,8 @@ pub(super) enum CauseInput {
     Fault(String),
     /// A block of a program, by its number, label or line.
     Block(String),
+    /// A timer or a counter of the PLC, and its status.
+    Timer(String, bool),
 }
 
 impl CauseInput {
@@ -80,8 +83,11 @@ impl CauseInput {
 impl Trace {
     /// The text of the event with this number.
     pub(super) fn cause(&self, number: u32, describe: &dyn Describe) -> Option<Cause> {
-        let event: &Event = self.event_numbered(number)?;
         let names: &Names = describe.names();
+        if let Some(row) = self.program_numbered(number) {
+            return Some(self.cause_in_program(number, row, names));
+        }
+        let event: &Event = self.event_numbered(number)?;
         Some(Cause {
             number,
             time: self.time(event.cycle),
@@ -91,6 +97,25 @@ impl Trace {
             inputs: event.inputs.iter().filter_map(|input| CauseInput::of(input, describe)).collect(),
             parent: self.event_number(event.parent, event.cycle),
         })
+    }
+
+    fn cause_in_program(&self, number: u32, row: &ProgramRow, names: &Names) -> Cause {
+        let input = |&(location, value): &(Location, bool)| {
+            let address = names.address(location).to_string();
+            match location.part {
+                Part::Timers | Part::Counters => CauseInput::Timer(address, value),
+                _ => CauseInput::Signal { address, symbol: names.symbol(location), value: value.into() },
+            }
+        };
+        Cause {
+            number,
+            time: self.time(row.cycle),
+            place: "PLC".to_owned(),
+            rule: "PLC".to_owned(),
+            because: by_program(self, row, names),
+            inputs: row.tested.iter().map(input).collect(),
+            parent: 0,
+        }
     }
 
     /// The events that caused these lines, and the events that led to them, in order.
@@ -103,6 +128,10 @@ impl Trace {
                 LineKind::Happening(happening) => happening.event,
                 LineKind::Note(_) | LineKind::Value(..) | LineKind::Text(..) => 0,
             };
+            if self.program_numbered(number).is_some() {
+                wanted.insert(number);
+                continue;
+            }
             while let Some(event) = self.event_numbered(number) {
                 if !wanted.insert(number) {
                     break;
@@ -110,6 +139,9 @@ impl Trace {
                 number = self.event_number(event.parent, event.cycle);
             }
         }
-        wanted.into_iter().filter_map(|number| self.cause(number, describe)).collect()
+        let mut causes: Vec<_> = wanted.into_iter().filter_map(|number| self.cause(number, describe)).collect();
+        // Those of the PLC program have numbers behind all events.
+        causes.sort_by_key(|cause| cause.time);
+        causes
     }
 }

@@ -1,15 +1,18 @@
 //! The trace of a running machine: rows of the recorder, events, notes and watched values.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::bits::Bits;
 use super::calendar::Calendar;
 use super::measured::Measured;
 use super::record::by_in_words;
 use super::value::Recorded;
 use super::watch::WatchedItem;
-use super::{Change, Recorder, Row, Watch};
-use crate::image::{Location, Memory, PartBytes};
+use super::{By, Change, Recorder, Row, Watch};
+use crate::image::{Location, Memory, Part, PartBytes};
 use crate::units::Time;
-use crate::variables::{Event, EventId, NamedValue, RuleNumber, Variables};
+use crate::variables::{Event, EventId, Happening, NamedValue, RuleNumber, Variables};
 
 /// A trace that grows while a machine runs.
 #[derive(Clone, Debug)]
@@ -29,6 +32,10 @@ pub struct Trace {
     pub(super) notes: Vec<(u64, String)>,
     pub(super) watched: Vec<WatchedValue>,
     pub(super) values: Vec<ValueRow>,
+    /// Why the PLC program changed bits, in the order of cycles.
+    pub(super) programs: Vec<ProgramRow>,
+    /// The symbols of the PLC program by addresses.
+    symbols: Arc<BTreeMap<String, String>>,
     /// The texts of watched values.
     pub(super) texts: Vec<Box<str>>,
     /// What a check of causes needs in addition, if it was asked for.
@@ -56,6 +63,25 @@ pub(super) struct ValueRow {
     pub(super) new: Recorded,
 }
 
+/// Why the PLC program changed bits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProgramRow {
+    /// The cycle.
+    pub cycle: u64,
+    /// The part of the memory.
+    pub part: Part,
+    /// The address of the first bit in the part.
+    pub bit: u32,
+    /// The number of bits.
+    pub bits: u32,
+    /// The new value of a single bit.
+    pub value: bool,
+    /// The statement that wrote them.
+    pub statement: Arc<str>,
+    /// The bits that were tested, with their values.
+    pub tested: Vec<(Location, bool)>,
+}
+
 impl Trace {
     /// An empty trace. It begins with this memory after cycle `cycle` at this time of the machine, which is time zero.
     #[must_use]
@@ -71,10 +97,66 @@ impl Trace {
             notes: Vec::new(),
             watched: Vec::new(),
             values: Vec::new(),
+            programs: Vec::new(),
+            symbols: Arc::default(),
             texts: Vec::new(),
             measured: None,
             lost: 0,
             last_cycle: cycle,
+        }
+    }
+
+    /// Areas and data blocks that a program brought before the first cycle.
+    pub fn remember(&mut self, memory: &Memory) {
+        if self.bits.is_empty() {
+            self.start = memory.clone();
+        }
+    }
+
+    /// Names the bits, timers and counters in causes of the PLC program by its symbols.
+    pub fn name_program(&mut self, symbols: &Arc<BTreeMap<String, String>>) {
+        self.symbols = Arc::clone(symbols);
+    }
+
+    /// `"Key clamp" (I0.5)`, or the address alone.
+    pub(super) fn program_name(&self, address: &str) -> String {
+        self.symbols.get(address).map_or_else(|| address.to_owned(), |symbol| format!("\"{symbol}\" ({address})"))
+    }
+
+    /// Takes over why the PLC program changed bits in a cycle.
+    pub fn extend_causes(&mut self, cycle: u64, causes: impl IntoIterator<Item = ProgramRow>) {
+        self.programs.extend(causes.into_iter().map(|cause| ProgramRow { cycle, ..cause }));
+    }
+
+    /// Why the PLC program changed these bits in a cycle to a value, and the number of this cause in the trace.
+    pub(super) fn program_cause(&self, location: Location, new: u64, cycle: u64) -> Option<(u32, &ProgramRow)> {
+        let first = self.programs.partition_point(|row| row.cycle < cycle);
+        let end = self.programs.partition_point(|row| row.cycle <= cycle);
+        let from = u64::from(location.offset) * 8 + u64::from(location.bit);
+        let to = from + u64::from(location.width);
+        let is_meant = |row: &ProgramRow| {
+            let begin = u64::from(row.bit);
+            let overlaps = row.part == location.part && begin < to && from < begin + u64::from(row.bits);
+            overlaps && (row.bits > 1 || location.width > 1 || row.value == (new != 0))
+        };
+        let index = first + self.programs[first..end].iter().rposition(is_meant)?;
+        let number = u32::try_from(self.events.len() + index + 1).ok()?;
+        Some((number, &self.programs[index]))
+    }
+
+    /// The cause of the PLC program with this number in the trace.
+    pub(super) fn program_numbered(&self, number: u32) -> Option<&ProgramRow> {
+        self.programs.get((number as usize).checked_sub(self.events.len() + 1)?)
+    }
+
+    /// Takes a note of why the PLC program stopped, if the recorder has that it stopped by itself.
+    pub fn note_fault(&mut self, recorder: &Recorder, fault: Option<&str>) {
+        let stopped = recorder
+            .rows()
+            .iter()
+            .find(|row| matches!(row.change, Change::Happened { what: Happening::PlcStopped, by: By::Plc, .. }));
+        if let (Some(row), Some(fault)) = (stopped, fault) {
+            self.notes.push((row.cycle, fault.to_owned()));
         }
     }
 
@@ -143,6 +225,7 @@ impl Trace {
             + self.others.len() * size_of::<Row>()
             + self.events.len() * size_of::<Event>()
             + self.values.len() * size_of::<ValueRow>()
+            + self.programs.iter().map(|row| size_of_val(row) + size_of_val(&*row.tested)).sum::<usize>()
             + notes
     }
 

@@ -28,7 +28,7 @@ pub(super) fn lines(lines: &[Line], causes: &[Cause]) -> String {
 fn follows_events(kind: &LineKind) -> bool {
     match kind {
         LineKind::Note(_) | LineKind::Happening(_) => false,
-        LineKind::Signal(signal) => signal.by == By::Nck,
+        LineKind::Signal(signal) => signal.by == By::Nck || signal.by == By::Plc && signal.event != 0,
         LineKind::Alarm(_) | LineKind::Value(..) | LineKind::Text(..) => true,
     }
 }
@@ -64,6 +64,7 @@ fn input(input: &CauseInput) -> String {
             Err(_) => format!("{{\"alarm\":{}}}", quoted(name)),
         },
         CauseInput::Fault(name) => format!("{{\"fault\":{}}}", quoted(name)),
+        CauseInput::Timer(name, status) => format!("{{\"timer\":{},\"value\":{}}}", quoted(name), u8::from(*status)),
         CauseInput::Block(name) => format!("{{\"block\":{}}}", quoted(name)),
     }
 }

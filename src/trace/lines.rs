@@ -4,14 +4,14 @@
 
 use std::collections::BTreeMap;
 
-use super::because::because;
+use super::because::{because, by_program};
 use super::bits::Bits;
 use super::happened::{HappeningLine, happened};
 use super::places::Places;
 use super::printable::{Order, Printable, Shown, printable, shown};
 use super::value::Recorded;
 use super::{By, Change, NoEffect, Trace, Watch};
-use crate::image::{Format, Location, Memory, Names};
+use crate::image::{Format, Location, Memory, Names, Part};
 use crate::units::Time;
 use crate::variables::{
     AlarmNumber, Describe, EventId, FaultName, Parameter, Place, RaisedAlarm, axis_name, place_name,
@@ -167,9 +167,19 @@ impl Trace {
             for Draft { printable, old, by, cause } in drafts.into_values() {
                 let new = shown(&memory, printable.location);
                 if old != new {
-                    let because = self.event(cause, cycle).map(|event| because(event, describe));
-                    let event = self.event_number(cause, cycle);
+                    let mut because = self.event(cause, cycle).map(|event| because(event, describe));
+                    let mut event = self.event_number(cause, cycle);
                     let Printable { symbol, address, location, .. } = printable;
+                    if by == By::Plc
+                        && let Some((number, row)) = self.program_cause(location, memory.read(location), cycle)
+                    {
+                        because = Some(by_program(self, row, names));
+                        event = number;
+                    }
+                    let is_clock = location.part == Part::Timers && because.is_none() && watch.locations().is_empty();
+                    if is_clock {
+                        continue;
+                    }
                     let rank = if by == By::Nck { 3 } else { 2 };
                     let line = SignalLine { symbol, address, old, new, by, because, event, location };
                     push(cycle, rank, LineKind::Signal(line));

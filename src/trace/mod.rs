@@ -16,7 +16,7 @@
 //! | a note | `note` |
 //! | something else happened | `happened`, its object, `where`, `by`, `because`, `event` |
 //! | a watched value changed | `symbol`, `value` |
-//! | an event of the control | `event`, `where`, `rule`, `because`, `inputs`, `parent` |
+//! | an event of the control, or a statement of the PLC program that changed a bit (`where` is `PLC`) | `event`, `where`, `rule`, `because`, `inputs`, `parent` |
 //!
 //! What happens in addition to changes of signals is a line, too, with or without `watch`: one line for one thing. The power on that opens
 //! a machine is the start of its trace and has no line; a datum that becomes active in the cycle in which it was written has only the
@@ -34,7 +34,8 @@
 //!
 //! `event` is a unique number in a trace. A change names the event that caused it, an event names the event that led to it as `parent`. A
 //! trace contains only events that caused changes in it. `inputs` lists what the event tested: objects with `signal`, `symbol` and `value`,
-//! with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a velocity, with `alarm`, or with `fault`.
+//! with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a velocity, with `alarm`, with `fault`, or with
+//! `timer` (`T5`, `C3`) and the `value` of its status.
 //! The event of a happening is the root of what follows from it. So the chain of
 //! causes can be followed without the machine ([`Story`], `opennck why`), as far as the trace watches its signals. [`Reading`] compares two
 //! traces (`opennck diff`).
@@ -76,7 +77,7 @@ pub use check::{CauseFault, CauseFinding};
 pub use compare::{Comparison, Reading};
 pub use curves::{Curves, Limit, Panel};
 pub use happened::{Detail, HappeningLine};
-pub use history::Trace;
+pub use history::{ProgramRow, Trace};
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
 pub use misplaced::{nearest_signal, value_as_signal};
 pub use past::Past;

@@ -47,6 +47,15 @@ impl<'a> Places<'a> {
 
 fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable> {
     let mut printables = Vec::new();
+    if matches!(part, Part::Timers | Part::Counters) {
+        // Timers and counters are words.
+        let location = Location { part, offset: offset & !1, bit: 0, width: 16, format: Format::Unsigned };
+        let printable = printable(names, location);
+        if watch.shows_unnamed_bit(&printable) || watch.locations().contains(&location) {
+            printables.push(printable);
+        }
+        return printables;
+    }
     let mut named_bits = 0;
     let interface = names.interface();
     let byte = interface.signals_at(part, offset);

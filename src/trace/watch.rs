@@ -12,6 +12,8 @@ use crate::variables::{AxisValue, NamedValue, Variables};
 pub struct Watch {
     /// `None` selects the default.
     chosen: Option<Chosen>,
+    /// The default, and every bit of the areas and data blocks of the PLC program, every timer and every counter.
+    has_every_bit: bool,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,7 +64,12 @@ impl Watch {
         // The finest step of a value that is named twice counts.
         chosen.values.sort_by(|one, other| one.value.cmp(&other.value).then(one.step.total_cmp(&other.step)));
         chosen.values.dedup_by_key(|item| item.value);
-        Ok(Self { chosen: Some(chosen) })
+        Ok(Self { chosen: Some(chosen), has_every_bit: false })
+    }
+
+    /// Every signal, and every bit, timer and counter of the PLC program, that changed.
+    pub(super) fn every_bit() -> Self {
+        Self { chosen: None, has_every_bit: true }
     }
 
     /// The selected values.
@@ -101,7 +108,7 @@ impl Watch {
 
     pub(super) fn shows_unnamed_bit(&self, bit: &Printable) -> bool {
         match &self.chosen {
-            None => matches!(bit.location.part, Part::Inputs | Part::Outputs),
+            None => self.has_every_bit || matches!(bit.location.part, Part::Inputs | Part::Outputs),
             Some(chosen) => chosen.shows(bit),
         }
     }

@@ -58,8 +58,8 @@ impl Trace {
     /// All changes, with the events that caused them.
     #[must_use]
     pub fn story(&self, describe: &dyn Describe) -> Story {
-        let lines = self.lines(describe, &Watch::default());
-        let numbers = 1..=u32::try_from(self.events.len()).unwrap_or(u32::MAX);
+        let lines = self.lines(describe, &Watch::every_bit());
+        let numbers = 1..=u32::try_from(self.events.len() + self.programs.len()).unwrap_or(u32::MAX);
         Story {
             edges: lines.iter().filter_map(Edge::of).collect(),
             causes: numbers.filter_map(|number| self.cause(number, describe)).collect(),
@@ -337,11 +337,18 @@ impl<'a> Chain<'a> {
 
     /// Follows a signal or an alarm to its previous edge.
     fn input(&mut self, input: &CauseInput, time: Time, depth: usize) {
+        if let CauseInput::Timer(name, status) = input {
+            return self.timer(name, *status, time, depth);
+        }
         let (name, new) = match input {
             CauseInput::Signal { address, value, .. } => (address.clone(), value.to_string()),
             CauseInput::Alarm(name) => (format!("alarm({name})"), "raised".to_owned()),
             // Measured values and machine data are in the text of the event.
-            CauseInput::Datum(..) | CauseInput::Value(..) | CauseInput::Fault(_) | CauseInput::Block(_) => return,
+            CauseInput::Datum(..)
+            | CauseInput::Value(..)
+            | CauseInput::Fault(_)
+            | CauseInput::Block(_)
+            | CauseInput::Timer(..) => return,
         };
         let edges = self.by_value.get(&(name.as_str(), new.as_str())).map_or(&[][..], Vec::as_slice);
         let before = edges.partition_point(|index| self.story.edges[*index].time <= time);
@@ -352,7 +359,21 @@ impl<'a> Chain<'a> {
             let changes =
                 self.by_value.range((address.as_str(), "")..).next().is_some_and(|((of, _), _)| of == address);
             let why = if changes { "from the start" } else { "without an edge in this trace" };
-            self.timeless_row(depth, &format!("{name} ({address})  {new}  {why}"));
+            let address = if name == address { String::new() } else { format!(" ({address})") };
+            self.timeless_row(depth, &format!("{name}{address}  {new}  {why}"));
+        }
+    }
+}
+
+impl Chain<'_> {
+    /// Follows a timer or a counter to the statement that started or changed it last.
+    fn timer(&mut self, name: &str, status: bool, time: Time, depth: usize) {
+        let of_name = self.by_value.range((name, "")..).take_while(|((of, _), _)| *of == name);
+        let edges = of_name.flat_map(|(_, edges)| edges).copied();
+        let last = edges.filter(|index| self.story.edges[*index].time <= time).max();
+        match last {
+            Some(index) => self.open.push((Follow::Edge(index), depth)),
+            None => self.timeless_row(depth, &format!("{name}  {}  without an edge in this trace", u8::from(status))),
         }
     }
 }
@@ -399,6 +420,9 @@ fn input(input: &Value) -> Option<CauseInput> {
     }
     if let Some(block) = text("block") {
         return Some(CauseInput::Block(block));
+    }
+    if let Some(timer) = text("timer") {
+        return Some(CauseInput::Timer(timer, value.and_then(Value::as_u64) == Some(1)));
     }
     text("symbol").map(|name| CauseInput::Value(name, plain(value)))
 }

@@ -5,7 +5,7 @@
 
 use opennck::machine::{Command, DatumValue, Machine};
 use opennck::plc::program;
-use opennck::plc::step7::{Cpu, CpuOptions, OwnMemory, Settings, Source, compile};
+use opennck::plc::step7::{Cpu, CpuOptions, LoadedProgram, OwnMemory, Settings, Source, compile};
 
 fn write(machine: &mut Machine, signal: &str, value: u64) {
     let location = machine.names().resolve(machine.memory(), signal).expect("a signal");
@@ -74,6 +74,29 @@ fn no_scan_of_a_step_7_program_allocates() {
         let allocated = allocation_counter::measure(|| cpu.scan(&mut memory, scan * 10_000_000).expect("it runs"));
         assert_eq!(allocated.count_total, 0, "scan {scan}");
     }
+}
+
+/// The program of a machine, with an interface data block, a data block of its own, timers and OB35.
+#[test]
+fn no_step_of_a_machine_with_a_step_7_program_allocates() {
+    let text = "DATA_BLOCK DB 100\nSTRUCT\nscans : INT;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n\
+        ORGANIZATION_BLOCK OB 35\nBEGIN\nL MW 50; + 1; T MW 50;\nEND_ORGANIZATION_BLOCK\n\
+        ORGANIZATION_BLOCK OB 1\nBEGIN\nSET; = DB32.DBX 1.5; = DB32.DBX 2.1; = DB32.DBX 21.7; \
+        L DB100.scans; + 1; T DB100.scans; AN T 1; L S5T#50MS; SE T 1; A DB32.DBX 61.5; CU C 1;\nEND_ORGANIZATION_BLOCK\n";
+    let program = LoadedProgram::compile(&[Source::statements("a.awl", text)], &Settings::default(), "a");
+    let mut machine = Machine::open("g1_example").expect("it is built in");
+    machine.load_program(program.expect("it has no findings").boxed());
+    for _ in 0..50 {
+        machine.step();
+        machine.drain();
+    }
+    for _ in 0..200 {
+        let allocated = allocation_counter::measure(|| machine.step());
+        assert_eq!(allocated.count_total, 0, "cycle {}", machine.cycle());
+        machine.drain();
+    }
+    let counted = machine.names().resolve(machine.memory(), "C1").expect("a counter");
+    assert_eq!(machine.memory().read(counted), 1, "position control became active once");
 }
 
 #[test]

@@ -155,7 +155,7 @@ fn every_scenario_in_the_pages_passes_unless_the_page_says_that_it_fails() {
             let place = page.place(block);
             let cases = Scenario::parse_cases(&block.text, Path::new("page.toml"));
             for scenario in cases.unwrap_or_else(|problem| panic!("{place}: {problem}")) {
-                if scenario.plc_process.is_some() {
+                if scenario.plc_process.is_some() || scenario.plc_folder().is_some() {
                     continue; // a command of the page runs it, in a folder with the program
                 }
                 let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready());

@@ -28,6 +28,7 @@ mod runner;
 mod s7;
 mod scenario_language;
 mod second_control;
+mod step7;
 mod tune_limits;
 mod two_controls;
 mod why_not;

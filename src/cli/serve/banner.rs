@@ -12,6 +12,9 @@ pub(super) fn machine(opened: &Opened, arguments: &Arguments) -> String {
     let plc = match (opened.plc.as_ref().or(opened.plc_process.as_ref()), &arguments.image) {
         (Some(name), _) => format!("PLC program {name}"),
         (None, Some(file)) => format!("PLC program in another process, through {}", file.display()),
+        (None, None) if machine.own_program().is_some() => {
+            format!("PLC program {} of the machine", machine.own_program().map_or("", |(name, _)| name))
+        }
         (None, None) => "no PLC program: clients write the PLC signals".to_owned(),
     };
     let axes: Vec<_> = machine.names().axes.iter().filter_map(|(_, name)| name.clone()).collect();

@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "TEXT")]
     pub(super) filter: Vec<String>,
     /// Prints the names of the selected cases and runs nothing.
-    #[arg(long, conflicts_with_all = ["accept", "junit", "html", "flowchart", "watch"])]
+    #[arg(long, conflicts_with_all = ["accept", "junit", "html", "flowchart", "plc_coverage", "watch"])]
     pub(super) list: bool,
     /// Begins no further case after the first one that does not pass.
     #[arg(long)]
@@ -44,6 +44,9 @@ pub(crate) struct Arguments {
     /// Writes a page with each failure, its text and its timing diagram.
     #[arg(long, value_name = "F.html")]
     pub(super) html: Option<PathBuf>,
+    /// Writes which statements, networks, branches and contacts of STEP 7 programs ran in all cases together.
+    #[arg(long, value_name = "F.html|F.json|F.lcov")]
+    pub(super) plc_coverage: Option<PathBuf>,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: Format,

@@ -15,11 +15,13 @@ use super::junit;
 use super::page;
 use super::select::Found;
 use super::work::{Item, Ran, Work, sum};
+use crate::cli::coverage;
 use crate::cli::files::Files;
 use crate::cli::flowchart;
 use crate::cli::output::Output;
 use crate::golden::{Exercised, Outcome, Update, is_of};
 use crate::plc::Programs;
+use crate::plc::step7::Coverage;
 use crate::source::{Problem, Replacement, unwritable};
 
 /// The output files, open before anything runs.
@@ -27,6 +29,7 @@ pub(super) struct Reports {
     junit: Option<Replacement>,
     flowchart: Option<Replacement>,
     html: Option<Replacement>,
+    coverage: Option<(coverage::Form, Replacement)>,
 }
 
 /// Opens the files of the reports; none of them is a file that the command reads.
@@ -38,6 +41,13 @@ pub(super) fn reports(arguments: &Arguments, work: &[Work]) -> Result<Reports, P
         junit: open("--junit", &arguments.junit)?,
         flowchart: open("--flowchart", &arguments.flowchart)?,
         html: open("--html", &arguments.html)?,
+        coverage: match &arguments.plc_coverage {
+            Some(path) => {
+                let form = coverage::Form::of(path)?;
+                open("--plc-coverage", &arguments.plc_coverage)?.map(|file| (form, file))
+            }
+            None => None,
+        },
     })
 }
 
@@ -66,7 +76,7 @@ pub(super) fn once(
 ) -> u8 {
     let begin = Instant::now();
     let work = &found.work;
-    let (ran, taken) = all(work, arguments, programs);
+    let (ran, taken, covered) = all(work, arguments, programs);
     let took = begin.elapsed();
     // One line for each machine with findings.
     for warning in taken.iter().flat_map(|control| &control.warnings).collect::<BTreeSet<_>>() {
@@ -77,6 +87,7 @@ pub(super) fn once(
     let left = ran.iter().filter(|ran| ran.is_none()).count();
     let done: Vec<(&Work, Ran)> = work.iter().zip(ran).filter_map(|(work, ran)| Some((work, ran?))).collect();
     let mut code = report(&done, left, arguments, output);
+    covered.iter().for_each(|one| output.line(format!("PLC {}", one.summary())));
     code = code.max(orphans(&found.orphans, &done, arguments.accept, output));
     let Some(reports) = reports else { return code };
     let written = |file: Option<Replacement>, text: &mut dyn FnMut() -> Result<String, Problem>| {
@@ -85,7 +96,9 @@ pub(super) fn once(
             file.finish()
         })
     };
+    let (form, covering) = reports.coverage.unzip();
     let written = [
+        written(covering, &mut || form.map_or_else(|| Ok(String::new()), |form| form.text(&covered))),
         written(reports.junit, &mut || junit::text(&done, took)),
         written(reports.flowchart, &mut || {
             let chart = flowchart::text(None, &taken);
@@ -135,7 +148,7 @@ const CURE: &str =
 
 /// Runs all cases in parallel. The outcomes are in the order of the work, not in order of completion; with `--fail-fast`, a case that did
 /// not begin before the first failure has none. The transitions taken in all cases are added up per control.
-fn all(work: &[Work], arguments: &Arguments, programs: &Programs) -> (Vec<Option<Ran>>, Vec<Exercised>) {
+fn all(work: &[Work], arguments: &Arguments, programs: &Programs) -> (Vec<Option<Ran>>, Vec<Exercised>, Vec<Coverage>) {
     let update = if arguments.accept { Update::Accept } else { Update::No };
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = arguments.jobs.map_or_else(processors, usize::from).min(work.len()).max(1);
@@ -165,9 +178,13 @@ fn all(work: &[Work], arguments: &Arguments, programs: &Programs) -> (Vec<Option
     let mut done = done.into_inner().unwrap_or_default();
     done.sort_by_key(|(index, ..)| *index);
     let mut sum: Vec<Exercised> = Vec::new();
+    let mut covered = Vec::new();
     let mut outcomes: Vec<Option<Ran>> = work.iter().map(|_| None).collect();
     for (index, ran, taken) in done {
         if let Some(mut more) = taken {
+            if let Some(one) = more.coverage.take() {
+                coverage::add(&mut covered, one);
+            }
             let name = &work[index].name;
             more.remarks.iter_mut().for_each(|remark| *remark = format!("{name}: {remark}"));
             match sum.iter_mut().find(|known| known.texts.name() == more.texts.name()) {
@@ -181,7 +198,7 @@ fn all(work: &[Work], arguments: &Arguments, programs: &Programs) -> (Vec<Option
         }
         outcomes[index] = Some(ran);
     }
-    (outcomes, sum)
+    (outcomes, sum, covered)
 }
 
 fn run(work: &Work, update: Update, is_drawn: bool, programs: &Programs) -> (Ran, Option<Exercised>) {

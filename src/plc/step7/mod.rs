@@ -20,19 +20,24 @@
 //! ```
 
 mod compile;
+mod coverage;
 mod engine;
 mod folder;
 mod instruction;
+mod loaded;
 mod program;
 mod system;
 #[cfg(test)]
 mod tests;
 mod text;
+mod view;
 
 pub use compile::{Compiled, Settings, Source, SourceKind, compile};
+pub use coverage::{Counts, Coverage, StatementCoverage};
 pub use engine::{Area, Areas, Cpu, CpuOptions, CpuState, Fault, OpenBlock, OwnMemory, Registers, Status, Stop};
 pub use folder::{Folder, PlcToml};
 pub use instruction::{BlockKind, BlockName};
+pub use loaded::{LoadedProgram, folder, load};
 pub use program::{Program, ProgramBlock, Sizes};
 pub use text::finding::{Finding, FindingKind};
 pub use text::mnemonics::Language;

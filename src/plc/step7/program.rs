@@ -1,6 +1,7 @@
 //! A compiled program: a flat list of instructions, and the tables that they index. The engine runs it; nothing in it changes while it runs.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::instruction::{BlockKind, BlockName, CallSite, Copy, Line, MakePointer, Op, ParameterSource};
 
@@ -61,6 +62,8 @@ pub struct Program {
     pub(in crate::plc::step7) statements: u32,
     /// A number that another program does not have, for saved states.
     pub(in crate::plc::step7) fingerprint: u64,
+    /// The symbols of bits, timers and counters by their addresses.
+    pub(in crate::plc::step7) symbols: Arc<BTreeMap<String, String>>,
     /// Blocks that are called, are nowhere, and are left out.
     pub(in crate::plc::step7) ignored: Vec<BlockName>,
     /// Data blocks that are used, and that the machine must bring.
@@ -78,6 +81,12 @@ impl Program {
     #[must_use]
     pub fn sizes(&self) -> Sizes {
         self.sizes
+    }
+
+    /// The symbols of bits, timers and counters by their addresses, such as `I1.0` and `T5`.
+    #[must_use]
+    pub fn symbols(&self) -> &Arc<BTreeMap<String, String>> {
+        &self.symbols
     }
 
     /// The number of its statements.
@@ -101,6 +110,14 @@ impl Program {
     #[must_use]
     pub fn foreign_data_blocks(&self) -> &[u16] {
         &self.foreign
+    }
+
+    /// The place of an instruction: `FC10, network 3, statement 5 (motor.awl:12)`.
+    pub(in crate::plc::step7) fn place(&self, pc: u32) -> String {
+        let line = self.lines.get(pc as usize).copied().unwrap_or_default();
+        let block = self.block_at(pc).map_or_else(String::new, |block| block.name.to_string());
+        let file = self.files.get(usize::from(line.file)).map_or("", String::as_str);
+        format!("{block}, network {}, statement {} ({file}:{})", line.network, line.statement, line.line)
     }
 
     /// The block to which an instruction belongs.

@@ -109,6 +109,9 @@ fn diagnosis(entry: &Entry) -> Diagnosis {
         Event::Run => Diagnosis::RUN,
         Event::Stop => Diagnosis::STOP,
         Event::Fault => Diagnosis::FAULT,
+        Event::Numbered(event, information) => {
+            return Diagnosis { event, information, time: to_date_and_time(entry.time) };
+        }
         Event::WarmRestart => Diagnosis::WARM_RESTART,
         Event::ColdRestart => Diagnosis::COLD_RESTART,
     };

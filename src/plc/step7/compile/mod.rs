@@ -8,6 +8,7 @@ mod statements;
 mod unit;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::instruction::{BlockKind, BlockName};
 use super::program::{CodeBlock, Program, ProgramBlock, Sizes};
@@ -244,6 +245,7 @@ impl Builder {
             files: sources.iter().map(|source| source.name.clone()).collect(),
             statements: self.statements,
             fingerprint: fingerprint(sources),
+            symbols: Arc::new(known.symbols.by_address()),
             ignored: self.tables.missing.into_iter().collect(),
             foreign: self.tables.foreign.into_iter().collect(),
         }

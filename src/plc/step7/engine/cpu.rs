@@ -7,10 +7,12 @@ use serde::{Deserialize, Serialize};
 use crate::plc::step7::instruction::Logic;
 use crate::plc::step7::program::Program;
 
+use super::arithmetic::digits;
 use super::fault::Stop;
 use super::memory::OpenBlock;
+use super::observe::Observed;
 use super::registers::Registers;
-use super::timer::{Counter, Timer};
+use super::timer::{Counter, Timer, bcd};
 
 /// Properties of the CPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,8 +128,10 @@ pub(in crate::plc::step7) struct Work {
     pub(in crate::plc::step7) mcr: McrState,
     pub(in crate::plc::step7) budget: u64,
     pub(in crate::plc::step7) now: i64,
-    /// Whether OB121 or OB122 runs.
+    /// Whether OB80, OB121 or OB122 runs.
     pub(in crate::plc::step7) in_error: bool,
+    /// Whether OB80 has run in this scan.
+    pub(in crate::plc::step7) is_late: bool,
     /// The instruction that runs, or ran last.
     pub(in crate::plc::step7) pc: u32,
 }
@@ -139,6 +143,8 @@ pub struct Cpu {
     pub(in crate::plc::step7) options: CpuOptions,
     pub(in crate::plc::step7) state: CpuState,
     pub(in crate::plc::step7) work: Work,
+    /// What is observed, if it is; no part of the state.
+    pub(in crate::plc::step7) observed: Option<Box<Observed>>,
 }
 
 impl Clone for Cpu {
@@ -146,6 +152,7 @@ impl Clone for Cpu {
     fn clone(&self) -> Self {
         let mut copy = Self::new(Arc::clone(&self.program), self.options);
         copy.state = self.state.clone();
+        copy.observed = self.observed.as_ref().map(|_| Box::new(Observed::new(self.program.code.len())));
         copy
     }
 }
@@ -180,7 +187,7 @@ impl Cpu {
             nests: Vec::with_capacity(depth * 8),
             ..Work::default()
         };
-        Self { program, options, state, work }
+        Self { program, options, state, work, observed: None }
     }
 
     /// The state, to save it.
@@ -201,10 +208,21 @@ impl Cpu {
         fits
     }
 
+    /// Observes the program from now on, for coverage and causes: slower, with the same results.
+    pub fn observe(&mut self) {
+        self.observed.get_or_insert_with(|| Box::new(Observed::new(self.program.code.len())));
+    }
+
     /// The program.
     #[must_use]
     pub fn program(&self) -> &Program {
         &self.program
+    }
+
+    /// The program, to share it with another CPU.
+    #[must_use]
+    pub fn shared_program(&self) -> Arc<Program> {
+        Arc::clone(&self.program)
     }
 
     /// Why the PLC stopped, if it did.
@@ -222,6 +240,34 @@ impl Cpu {
     /// The registers, to be set before a scan.
     pub fn registers_mut(&mut self) -> &mut Registers {
         &mut self.state.registers
+    }
+
+    /// The options with which it runs.
+    #[must_use]
+    pub fn options(&self) -> CpuOptions {
+        self.options
+    }
+
+    /// The word of a timer as clients read it: the value in BCD with its base in the bits 12 and 13, at a time in ns.
+    #[must_use]
+    pub fn timer_word(&self, number: u16, now: i64) -> Option<u16> {
+        let timer = self.state.timers.get(usize::from(number))?;
+        Some(u16::from(timer.base()) << 12 | bcd(timer.value(now)))
+    }
+
+    /// The word of a counter as clients read it: the value in BCD.
+    #[must_use]
+    pub fn counter_word(&self, number: u16) -> Option<u16> {
+        self.counter(number).map(bcd)
+    }
+
+    /// Sets a counter from a word in BCD; a digit above 9 changes nothing.
+    pub fn set_counter_word(&mut self, number: u16, word: u16) {
+        if let (Some(counter), Ok(value)) =
+            (self.state.counters.get_mut(usize::from(number)), digits(u32::from(word & 0xFFF)))
+        {
+            counter.value = u16::try_from(value).unwrap_or(999);
+        }
     }
 
     /// The value of a timer as `L T` loads it, and its status bit, at a time in ns.

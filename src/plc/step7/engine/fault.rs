@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::registers::Registers;
+use crate::plc::PlcDiagnosis;
 
 /// What a statement did wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -125,6 +126,28 @@ pub struct Stop {
     pub line: u32,
     /// The registers before the statement.
     pub registers: Registers,
+}
+
+impl Stop {
+    /// The entries of the diagnostic buffer: the fault with the numbers that OB121 or OB122 would have got, if it has such an event, and
+    /// why the CPU is in STOP.
+    #[must_use]
+    pub fn diagnosis(&self) -> PlcDiagnosis {
+        let priority = 1;
+        let information = [priority, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+        let (cause, stop) = match self.fault {
+            Fault::Peripheral(_) => (Some(0x2900), 0x4563),
+            Fault::CycleTime => (Some(0x3501), 0x4568),
+            Fault::StopCalled => (None, 0x4304),
+            _ => (Some(0x2500), 0x4562),
+        };
+        let cause = match (cause, self.fault.code()) {
+            (Some(class), Some(code)) => Some(class | u16::from(code)),
+            (Some(event), None) if self.fault == Fault::CycleTime => Some(event),
+            _ => None,
+        };
+        PlcDiagnosis { cause, stop, information }
+    }
 }
 
 impl fmt::Display for Stop {

@@ -39,6 +39,11 @@ pub trait Areas {
     /// A data block by its number; `None` if it does not exist.
     fn block(&self, number: u16) -> Option<OpenBlock>;
 
+    /// Whether a data block is one of an interface with a control.
+    fn is_interface(&self, _block: OpenBlock) -> bool {
+        false
+    }
+
     /// Bytes of a data block; `None` beyond its end.
     fn read<const N: usize>(&self, block: OpenBlock, byte: u32) -> Option<[u8; N]>;
 

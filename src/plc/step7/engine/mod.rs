@@ -6,9 +6,11 @@ mod calls;
 mod cpu;
 mod fault;
 mod memory;
+mod observe;
 mod operations;
 mod organization;
 mod real;
+mod reasons;
 mod registers;
 mod run;
 mod timer;
@@ -19,3 +21,4 @@ pub use memory::{Area, Areas, OpenBlock, OwnMemory};
 pub use registers::{Registers, Status};
 
 pub(in crate::plc::step7) use access::{Spot, Where};
+pub(in crate::plc::step7) use observe::{Kind, NO, Named, Observed, RAN, Seen, YES, kind};

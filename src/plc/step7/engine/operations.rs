@@ -9,6 +9,7 @@ use super::cpu::Cpu;
 use super::fault::Fault;
 use super::memory::{Areas, OpenBlock};
 use super::registers::Status;
+use super::timer::bcd;
 
 /// The open MCR zones of a block.
 const ZONES: u8 = 8;
@@ -80,12 +81,12 @@ impl Cpu {
                 let now = self.work.now;
                 let timer = self.timer_at(areas, number)?;
                 let (value, base) = (timer.value(now), timer.base());
-                let value = if is_bcd { u32::from(base) << 12 | bcd(value) } else { u32::from(value) };
+                let value = if is_bcd { u32::from(base) << 12 | u32::from(bcd(value)) } else { u32::from(value) };
                 self.load(value);
             }
             Op::LoadCounter(is_bcd, number) => {
                 let value = self.counter_at(areas, number)?.value;
-                self.load(if is_bcd { bcd(value) } else { u32::from(value) });
+                self.load(if is_bcd { u32::from(bcd(value)) } else { u32::from(value) });
             }
             Op::LoadParameterAddress(index) => {
                 let address = self.parameter_address(index)?;
@@ -347,11 +348,6 @@ impl Cpu {
 fn open(areas: &impl Areas, number: u16) -> Option<OpenBlock> {
     // DB0 does not exist: nothing is open after it.
     if number == 0 { Some(OpenBlock::default()) } else { areas.block(number) }
-}
-
-fn bcd(value: u16) -> u32 {
-    let value = u32::from(value);
-    (value / 100 % 10) << 8 | (value / 10 % 10) << 4 | (value % 10)
 }
 
 fn status_bit(status: Status, bit: StatusBit) -> bool {

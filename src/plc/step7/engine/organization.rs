@@ -41,6 +41,43 @@ impl Cpu {
         }
         self.begin(now);
         self.measure(now);
+        self.cyclic_interrupt(areas, now)?;
+        let mut information = self.information(0x11, if self.state.scans == 0 { 1 } else { 3 }, 1, 1);
+        let times = [self.state.cycle, self.state.shortest, self.state.longest];
+        for (place, time) in [6, 8, 10].into_iter().zip(times) {
+            let millis = i16::try_from(time / MILLI_NANOS).unwrap_or(i16::MAX);
+            information[place..place + 2].copy_from_slice(&millis.to_be_bytes());
+        }
+        let done = self.organization_block(areas, 1, &information);
+        self.state.scans += 1;
+        self.ended(done)
+    }
+
+    /// Between two scans, at a time in ns: OB35 if it is due.
+    ///
+    /// # Errors
+    /// The program stopped the PLC, now or in an earlier scan.
+    pub fn interrupt<A: Areas>(&mut self, areas: &mut A, now: i64) -> Result<(), Box<Stop>> {
+        if let Some(stop) = &self.state.stop {
+            return Err(Box::new(stop.clone()));
+        }
+        self.begin(now);
+        self.cyclic_interrupt(areas, now)
+    }
+
+    /// Whether the program has a block that runs between two scans.
+    #[must_use]
+    pub fn has_interrupts(&self) -> bool {
+        self.program.find(BlockKind::Ob, 35).is_some()
+    }
+
+    /// Whether [`Cpu::interrupt`] would run a block at a time in ns.
+    #[must_use]
+    pub fn interrupt_is_due(&self, now: i64) -> bool {
+        now >= self.state.next_ob35 && self.has_interrupts()
+    }
+
+    fn cyclic_interrupt<A: Areas>(&mut self, areas: &mut A, now: i64) -> Result<(), Box<Stop>> {
         if now >= self.state.next_ob35 {
             let period = self.options.ob35_nanos.max(1);
             let late = (now - self.state.next_ob35) / period;
@@ -53,15 +90,7 @@ impl Cpu {
                 self.ended(done)?;
             }
         }
-        let mut information = self.information(0x11, if self.state.scans == 0 { 1 } else { 3 }, 1, 1);
-        let times = [self.state.cycle, self.state.shortest, self.state.longest];
-        for (place, time) in [6, 8, 10].into_iter().zip(times) {
-            let millis = i16::try_from(time / MILLI_NANOS).unwrap_or(i16::MAX);
-            information[place..place + 2].copy_from_slice(&millis.to_be_bytes());
-        }
-        let done = self.organization_block(areas, 1, &information);
-        self.state.scans += 1;
-        self.ended(done)
+        Ok(())
     }
 
     fn begin(&mut self, now: i64) {
@@ -77,6 +106,7 @@ impl Cpu {
         self.work.nests.clear();
         self.work.mcr = McrState::default();
         self.work.in_error = false;
+        self.work.is_late = false;
     }
 
     fn measure(&mut self, now: i64) {
@@ -144,11 +174,8 @@ impl Cpu {
         if self.work.in_error || self.program.find(BlockKind::Ob, u16::from(number)).is_none() {
             return Err(fault);
         }
-        let registers = self.state.registers;
-        let mcr = self.work.mcr;
-        let pc = self.work.pc;
         let mut information = self.information(if number == 121 { 0x25 } else { 0x29 }, code, 1, number);
-        if let Some(block) = self.program.block_at(pc) {
+        if let Some(block) = self.program.block_at(self.work.pc) {
             information[4] = match block.name.kind {
                 BlockKind::Ob => 0x88,
                 BlockKind::Fb => 0x8E,
@@ -158,12 +185,32 @@ impl Cpu {
         }
         let register = u16::try_from(place_of(fault)).unwrap_or(u16::MAX);
         information[6..8].copy_from_slice(&register.to_be_bytes());
+        self.error_block(areas, &information)
+    }
+
+    /// The cycle monitoring time is exceeded: OB80 runs if the program has it, and the monitoring time begins again, once in a scan; else
+    /// the PLC stops.
+    pub(in crate::plc::step7) fn late<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
+        if self.work.in_error || self.work.is_late || self.program.find(BlockKind::Ob, 80).is_none() {
+            return Err(Fault::CycleTime);
+        }
+        self.work.is_late = true;
+        self.work.budget = self.options.instructions_per_scan;
+        let information = self.information(0x35, 0x01, 26, 80);
+        self.error_block(areas, &information)?;
+        self.work.budget = self.options.instructions_per_scan;
+        Ok(())
+    }
+
+    /// Runs OB80, OB121 or OB122 within another block, which then goes on as it was.
+    fn error_block<A: Areas>(&mut self, areas: &mut A, information: &Information) -> Result<(), Fault> {
+        let (registers, mcr, pc, delayed) = (self.state.registers, self.work.mcr, self.work.pc, self.state.delayed);
         self.work.in_error = true;
-        self.organization_block(areas, u16::from(number), &information)?;
+        self.organization_block(areas, u16::from(information[3]), information)?;
         self.work.in_error = false;
         self.state.registers = registers;
-        self.work.mcr = mcr;
-        self.work.pc = pc;
+        self.state.delayed = delayed;
+        (self.work.mcr, self.work.pc) = (mcr, pc);
         Ok(())
     }
 

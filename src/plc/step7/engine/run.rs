@@ -16,6 +16,14 @@ const BRACKETS: u32 = 7;
 impl Cpu {
     /// Runs an organization block from an instruction to its end.
     pub(in crate::plc::step7) fn run<A: Areas>(&mut self, areas: &mut A, start: u32) -> Result<(), Fault> {
+        if self.observed.is_some() {
+            self.run_on::<A, true>(areas, start)
+        } else {
+            self.run_on::<A, false>(areas, start)
+        }
+    }
+
+    fn run_on<A: Areas, const OBSERVED: bool>(&mut self, areas: &mut A, start: u32) -> Result<(), Fault> {
         let program = Arc::clone(&self.program);
         let code = program.code.as_slice();
         let mut pc = start;
@@ -26,14 +34,20 @@ impl Cpu {
             pc += 1;
             if budget == 0 {
                 self.work.pc = here;
-                return Err(Fault::CycleTime);
+                self.late(areas)?;
+                budget = self.work.budget;
             }
             budget -= 1;
+            if OBSERVED {
+                self.foresee(areas, op, here);
+            }
             if let Err(fault) = self.execute(areas, op, &mut pc) {
                 self.work.pc = here;
                 self.work.budget = budget;
                 self.report(areas, fault)?;
                 budget = self.work.budget;
+            } else if OBSERVED {
+                self.mark(areas, op, here, pc);
             }
         }
         self.work.budget = budget;

@@ -38,6 +38,11 @@ pub(in crate::plc::step7) struct Timer {
     freed: bool,
 }
 
+/// Three BCD digits.
+pub(in crate::plc::step7) const fn bcd(value: u16) -> u16 {
+    (value / 100 % 10) << 8 | (value / 10 % 10) << 4 | (value % 10)
+}
+
 const fn base_nanos(base: u8) -> i64 {
     match base {
         0 => 10_000_000,
@@ -77,6 +82,11 @@ impl Timer {
     /// The base for the BCD form.
     pub(in crate::plc::step7) fn base(&self) -> u8 {
         self.base
+    }
+
+    /// Whether readers see another course: it runs or not, ends at another time, or has another status.
+    pub(in crate::plc::step7) fn differs_from(&self, other: &Self, now: i64) -> bool {
+        self.end.filter(|end| now < *end) != other.end.filter(|end| now < *end) || self.status(now) != other.status(now)
     }
 
     fn stop(&mut self, now: i64) {

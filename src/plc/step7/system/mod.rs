@@ -6,4 +6,4 @@ mod interface;
 mod library;
 mod transfer;
 
-pub(in crate::plc::step7) use interface::{SYSTEM, by_name, by_number};
+pub(in crate::plc::step7) use interface::{SYSTEM, System, by_name, by_number};

@@ -2,7 +2,7 @@
 
 use proptest::prelude::{Just, Strategy, prop_oneof, proptest};
 
-use super::{Plc, registers, trial};
+use super::{CpuOptions, Plc, registers, trial};
 use crate::plc::step7::engine::Fault;
 
 /// Runs bit statements with M 0.0 = 0 and M 0.1 = 1 from a status word; returns the status word.
@@ -276,4 +276,24 @@ fn an_endless_loop_hits_the_cycle_monitoring() {
     let mut plc = Plc::of_statements("a: JU a;");
     assert_eq!(plc.fault(), Fault::CycleTime);
     assert_eq!(plc.cpu.stopped().unwrap().line, 13);
+}
+
+/// OB80 in the first overrun of a scan, STOP in the second.
+#[test]
+fn ob80_runs_once_in_a_scan_that_does_not_end() {
+    let text = |loops: &str| {
+        format!(
+            "ORGANIZATION_BLOCK OB 80\nVAR_TEMP\nclass : BYTE; fault : BYTE; i : ARRAY [0 .. 17] OF BYTE;\nEND_VAR\nBEGIN\n\
+             L MW 10; + 1; T MW 10; L #class; T MB 12; L #fault; T MB 13; SET; S M 0.0;\nEND_ORGANIZATION_BLOCK\n\
+             ORGANIZATION_BLOCK OB 1\nBEGIN\nL 7; a: {loops}; T MW 14;\nEND_ORGANIZATION_BLOCK\n"
+        )
+    };
+    let options = CpuOptions { instructions_per_scan: 1000, ..CpuOptions::default() };
+    // The block ends the loop: the statement that was interrupted goes on, with the registers as they were.
+    let mut plc = Plc::with(&text("A M 0.0; JCN a"), options);
+    plc.scan();
+    assert_eq!((plc.word(10), plc.word(12), plc.word(14)), (1, 0x3501, 7));
+    let mut plc = Plc::with(&text("JU a"), options);
+    assert_eq!(plc.fault(), Fault::CycleTime);
+    assert_eq!(plc.word(10), 1);
 }

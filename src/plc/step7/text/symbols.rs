@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::plc::step7::instruction::BlockName;
+use crate::plc::step7::instruction::{BlockName, Space, Width};
 
 use super::address::{Address, parse};
 use super::finding::{At, Fault};
@@ -12,6 +12,7 @@ use super::finding::{At, Fault};
 pub(in crate::plc::step7) struct Symbols {
     by_name: BTreeMap<String, Address>,
     blocks: BTreeMap<BlockName, String>,
+    names: Vec<(Address, String)>,
 }
 
 /// The form of a symbol table.
@@ -48,6 +49,17 @@ impl Symbols {
         self.blocks.get(&name).map(String::as_str)
     }
 
+    /// The symbols of bits, timers and counters by their addresses, such as `I1.0` and `T5`.
+    pub(in crate::plc::step7) fn by_address(&self) -> BTreeMap<String, String> {
+        let mut all = BTreeMap::new();
+        for (address, name) in &self.names {
+            if let Some(address) = shown(*address) {
+                all.entry(address).or_insert_with(|| name.clone());
+            }
+        }
+        all
+    }
+
     pub(in crate::plc::step7) fn names(&self) -> impl Iterator<Item = &str> {
         self.by_name.keys().map(String::as_str)
     }
@@ -57,7 +69,8 @@ impl Symbols {
         let mut faults = Vec::new();
         for (line, row) in (1..).zip(text.lines()) {
             let row = row.trim_end_matches(['\r', '\u{1a}']);
-            if row.trim().is_empty() {
+            // STEP 7 writes no remarks; one in a table by hand does no harm.
+            if row.trim().is_empty() || row.starts_with("//") {
                 continue;
             }
             let found = match form {
@@ -81,7 +94,26 @@ impl Symbols {
         if let Address::Block(block) = address {
             self.blocks.entry(block).or_insert_with(|| name.to_owned());
         }
+        self.names.push((address, name.to_owned()));
         self.by_name.insert(name.to_lowercase(), address);
+    }
+}
+
+/// The address of a bit, a timer or a counter as the traces of a machine write it.
+fn shown(address: Address) -> Option<String> {
+    match address {
+        Address::Memory(space, Width::Bit, bit) => {
+            let letter = match space {
+                Space::Inputs => 'I',
+                Space::Outputs => 'Q',
+                Space::Flags => 'M',
+                Space::Peripheral | Space::Data | Space::Instance | Space::Local | Space::Caller => return None,
+            };
+            Some(format!("{letter}{}.{}", bit / 8, bit % 8))
+        }
+        Address::Timer(number) => Some(format!("T{number}")),
+        Address::Counter(number) => Some(format!("C{number}")),
+        Address::Memory(..) | Address::Block(_) | Address::Other => None,
     }
 }
 

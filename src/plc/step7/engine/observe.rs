@@ -1,0 +1,326 @@
+//! What a run leaves behind for its readers: which instructions ran and with which results, and why the program changed bits.
+//!
+//! Only an observed CPU pays for it. Nothing here is a part of the state of the CPU.
+
+use arrayvec::ArrayVec;
+
+use crate::plc::step7::instruction::{Condition, CopySource, Instance, Jump, Number, Op, Operand, Target, Width};
+
+use crate::plc::step7::system::{SYSTEM, System};
+
+use super::access::{Spot, Where};
+use super::cpu::Cpu;
+use super::memory::{Area, Areas, OpenBlock};
+
+/// The changes that are kept of one cycle.
+const CHANGES: usize = 512;
+/// The operands that are kept of one change.
+pub(in crate::plc::step7) const OPERANDS: usize = 8;
+
+/// The instruction ran.
+pub(in crate::plc::step7) const RAN: u8 = 1;
+/// A contact was false, or a branch was not taken.
+pub(in crate::plc::step7) const NO: u8 = 2;
+/// A contact was true, or a branch was taken.
+pub(in crate::plc::step7) const YES: u8 = 4;
+
+/// A place that has a name outside of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::plc::step7) enum Named {
+    Area(Area, u32),
+    /// A data block by its number.
+    Block(u16, u32),
+    Timer(u16),
+    Counter(u16),
+}
+
+/// A change of the memory, and the operands that made it.
+#[derive(Clone, Debug)]
+pub(in crate::plc::step7) struct Seen {
+    pub(in crate::plc::step7) pc: u32,
+    pub(in crate::plc::step7) place: Named,
+    /// The bits that were written from that place on.
+    pub(in crate::plc::step7) bits: u32,
+    /// The new value of a bit; 0 for a wider operand.
+    pub(in crate::plc::step7) value: bool,
+    pub(in crate::plc::step7) tested: ArrayVec<(Named, bool), OPERANDS>,
+}
+
+/// What was observed of a program.
+#[derive(Clone, Debug)]
+pub(in crate::plc::step7) struct Observed {
+    /// For each instruction [`RAN`], [`NO`] and [`YES`].
+    pub(in crate::plc::step7) marks: Vec<u8>,
+    /// The changes of the present cycle.
+    pub(in crate::plc::step7) seen: Vec<Seen>,
+    /// Bits that are written with the value that they have count, too, and those that are not set or not reset.
+    pub(in crate::plc::step7) has_all_writes: bool,
+    /// The IEC timer that is being called.
+    clock: Option<Clock>,
+}
+
+/// An IEC timer before its call: its instance, and whether Q was set.
+#[derive(Clone, Copy, Debug)]
+struct Clock {
+    block: OpenBlock,
+    begin: u32,
+    is_pulse: bool,
+    before: bool,
+}
+
+/// The bit address of Q in the instance of an IEC timer; IN is its first bit.
+const Q: u32 = 6 * 8;
+
+impl Observed {
+    pub(in crate::plc::step7) fn new(instructions: usize) -> Self {
+        Self { marks: vec![0; instructions], seen: Vec::with_capacity(CHANGES), has_all_writes: false, clock: None }
+    }
+}
+
+/// What an instruction is about to write.
+#[derive(Clone, Copy, Debug)]
+enum Writes {
+    Bit(Spot, bool),
+    /// The width in bits, and the new value.
+    Bytes(Spot, u32, u32),
+    Timer(u16),
+    Counter(u16),
+}
+
+impl Cpu {
+    /// Before an instruction: if it will change memory, remembers why.
+    pub(super) fn foresee<A: Areas>(&mut self, areas: &A, op: Op, pc: u32) {
+        let db = self.state.registers.db;
+        if let Op::Call(index) = op {
+            let clock = self.clock(areas, index);
+            if let Some(observed) = &mut self.observed {
+                observed.clock = clock;
+            }
+            return;
+        }
+        let has_all = self.observed.as_ref().is_some_and(|observed| observed.has_all_writes);
+        let writes = match op {
+            Op::Set(operand) | Op::Reset(operand) if has_all => self.latched(areas, operand, matches!(op, Op::Set(_))),
+            op => self.writes(areas, op),
+        };
+        self.state.registers.db = db;
+        let Some(writes) = writes else { return };
+        let (place, bits, value) = match writes {
+            Writes::Bit(spot, value) => {
+                if self.read_bit(areas, spot).ok() == Some(value) && !has_all {
+                    return;
+                }
+                (self.named(spot), 1, value)
+            }
+            // Words of flags and data blocks change in every scan; those of the interface are signals.
+            Writes::Bytes(spot, bits, value) => {
+                let width = match bits {
+                    8 => Width::Byte,
+                    16 => Width::Word,
+                    _ => Width::Double,
+                };
+                if !matches!(spot.at, Where::Block(block) if areas.is_interface(block))
+                    || self.read(areas, spot, width).ok() == Some(value)
+                {
+                    return;
+                }
+                (self.named(spot), bits, false)
+            }
+            // For a reader of every write: whether the timer is started.
+            Writes::Timer(number) => (Some(Named::Timer(number)), 16, self.state.registers.status.rlo),
+            Writes::Counter(number) => (Some(Named::Counter(number)), 16, false),
+        };
+        let Some(place) = place else { return };
+        let mut tested = ArrayVec::new();
+        if bits == 1 || matches!(place, Named::Timer(_) | Named::Counter(_)) {
+            self.reasons(areas, op, pc, &mut tested);
+        }
+        self.state.registers.db = db;
+        if let Some(observed) = &mut self.observed
+            && (observed.seen.len() < CHANGES || has_all)
+        {
+            observed.seen.push(Seen { pc, place, bits, value, tested });
+        }
+    }
+
+    /// The IEC timer that a call is of.
+    fn clock<A: Areas>(&self, areas: &A, index: u32) -> Option<Clock> {
+        let site = self.program.calls[index as usize];
+        let Target::System(system) = site.target else { return None };
+        let system = SYSTEM[usize::from(system)].system;
+        if !matches!(system, System::Pulse | System::OnDelay | System::OffDelay) {
+            return None;
+        }
+        let registers = self.state.registers;
+        let (block, begin) = match site.instance {
+            Instance::None => return None,
+            Instance::Block(number) => (areas.block(number)?, 0),
+            Instance::Within(bit) => (registers.di, registers.ar[1].wrapping_add(bit) & 0x0007_FFFF),
+        };
+        let before = self.read_bit(areas, Spot { at: Where::Block(block), bit: begin + Q }).ok()?;
+        Some(Clock { block, begin, is_pulse: system == System::Pulse, before })
+    }
+
+    /// After the call of an IEC timer: Q follows from IN, or from the time alone.
+    fn clock_called<A: Areas>(&mut self, areas: &A, pc: u32) {
+        let Some(observed) = &mut self.observed else { return };
+        let Some(Clock { block, begin, is_pulse, before }) = observed.clock.take() else { return };
+        let (all, is_full) = (observed.has_all_writes, observed.seen.len() >= CHANGES);
+        let bit = |bit| self.read_bit(areas, Spot { at: Where::Block(block), bit: begin + bit });
+        let (Ok(input), Ok(value)) = (bit(0), bit(Q)) else { return };
+        if !all && (value == before || is_full) {
+            return;
+        }
+        let mut tested = ArrayVec::new();
+        if input == value && (value || !is_pulse) {
+            tested.push((Named::Block(block.number, begin), input));
+        }
+        let place = Named::Block(block.number, begin + Q);
+        if let Some(observed) = &mut self.observed {
+            observed.seen.push(Seen { pc, place, bits: 1, value, tested });
+        }
+    }
+
+    /// S or R, if it is a reason for the value that its bit has behind it.
+    fn latched<A: Areas>(&mut self, areas: &A, operand: Operand, sets: bool) -> Option<Writes> {
+        let rlo = self.state.registers.status.rlo && !self.work.mcr.is_off();
+        let spot = self.spot(areas, operand).ok()?;
+        let value = if rlo { sets } else { self.read_bit(areas, spot).ok()? };
+        ((sets == rlo) == value).then_some(Writes::Bit(spot, value))
+    }
+
+    /// What an instruction writes, as far as its readers can see it.
+    fn writes<A: Areas>(&mut self, areas: &A, op: Op) -> Option<Writes> {
+        let status = self.state.registers.status;
+        let is_off = self.work.mcr.is_off();
+        let is_on = status.rlo && !is_off;
+        match op {
+            Op::Assign(operand) => Some(Writes::Bit(self.spot(areas, operand).ok()?, is_on)),
+            Op::Set(operand) | Op::Reset(operand) if is_on => {
+                Some(Writes::Bit(self.spot(areas, operand).ok()?, matches!(op, Op::Set(_))))
+            }
+            Op::Transfer(width, operand) => {
+                let accu1 = if is_off { 0 } else { self.state.registers.accu[0] };
+                let value = accu1 & u32::MAX >> (32 - width.bits());
+                Some(Writes::Bytes(self.spot(areas, operand).ok()?, width.bits(), value))
+            }
+            Op::Copy(index) => {
+                let copy = self.program.copies[index as usize];
+                if copy.bits != 1 {
+                    return None;
+                }
+                let value = match copy.from {
+                    CopySource::Operand(operand) => {
+                        let from = self.spot(areas, operand).ok()?;
+                        self.read_bit(areas, from).ok()?
+                    }
+                    CopySource::Constant(value) => value != 0,
+                    CopySource::Number(_) => return None,
+                };
+                Some(Writes::Bit(self.spot(areas, copy.to).ok()?, value))
+            }
+            Op::StartTimer(kind, number) => {
+                let (number, now) = (self.number(areas, number).ok()?, self.work.now);
+                let mut after = self.state.timers.get(usize::from(number))?.clone();
+                after.start(kind, status.rlo, self.state.registers.accu[0], now).ok()?;
+                let has_all = self.observed.as_ref().is_some_and(|observed| observed.has_all_writes);
+                let differs = self.state.timers[usize::from(number)].differs_from(&after, now);
+                (differs || has_all).then_some(Writes::Timer(number))
+            }
+            Op::ResetTimer(number) if status.rlo => {
+                let (number, now) = (self.number(areas, number).ok()?, self.work.now);
+                let mut after = self.state.timers.get(usize::from(number))?.clone();
+                after.reset();
+                self.state.timers[usize::from(number)].differs_from(&after, now).then_some(Writes::Timer(number))
+            }
+            Op::CountUp(number) | Op::CountDown(number) | Op::SetCounter(number) | Op::ResetCounter(number)
+                if status.rlo =>
+            {
+                let number = self.number(areas, number).ok()?;
+                let before = self.state.counters.get(usize::from(number))?;
+                let mut after = before.clone();
+                match op {
+                    Op::CountUp(_) => after.count_up(true),
+                    Op::CountDown(_) => after.count_down(true),
+                    Op::SetCounter(_) => after.set(true, self.state.registers.accu[0]).ok()?,
+                    _ => after.value = 0,
+                }
+                (after.value != before.value).then_some(Writes::Counter(number))
+            }
+            _ => None,
+        }
+    }
+
+    /// The name of a place for readers; local data have none.
+    pub(super) fn named(&self, spot: Spot) -> Option<Named> {
+        match spot.at {
+            Where::Area(area) => Some(Named::Area(area, spot.bit)),
+            Where::Block(block) => Some(Named::Block(block.number, spot.bit)),
+            Where::Peripheral => Some(Named::Area(Area::Outputs, spot.bit)),
+            Where::Local(..) => None,
+        }
+    }
+
+    /// After an instruction: marks what it was.
+    #[inline]
+    pub(super) fn mark<A: Areas>(&mut self, areas: &A, op: Op, pc: u32, next: u32) {
+        if matches!(op, Op::Call(_)) {
+            self.clock_called(areas, pc);
+        }
+        let sta = self.state.registers.status.sta;
+        let Some(observed) = &mut self.observed else { return };
+        let Some(mark) = observed.marks.get_mut(pc as usize) else { return };
+        *mark |= RAN
+            | match kind(op) {
+                Kind::Plain => 0,
+                Kind::Contact => {
+                    if sta {
+                        YES
+                    } else {
+                        NO
+                    }
+                }
+                Kind::Branch => {
+                    if next == pc + 1 {
+                        NO
+                    } else {
+                        YES
+                    }
+                }
+            };
+    }
+}
+
+/// What coverage asks of an instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::plc::step7) enum Kind {
+    /// That it runs.
+    Plain,
+    /// That it is true once and false once.
+    Contact,
+    /// That it is taken once and not taken once.
+    Branch,
+}
+
+/// The kind of an instruction.
+pub(in crate::plc::step7) fn kind(op: Op) -> Kind {
+    match op {
+        Op::Logic(..) | Op::LogicTimer(..) | Op::LogicCounter(..) | Op::LogicStatus(..) | Op::Compare(..) => {
+            Kind::Contact
+        }
+        Op::Edge(..) => Kind::Contact,
+        Op::Jump(jump, _) if jump != Jump::Always => Kind::Branch,
+        Op::End(Condition::IfRlo) | Op::CallPlain(Condition::IfRlo, _) | Op::CallNumber(Condition::IfRlo, ..) => {
+            Kind::Branch
+        }
+        _ => Kind::Plain,
+    }
+}
+
+/// The number of a timer or counter, if it does not depend on memory.
+pub(super) fn direct(number: Number) -> Option<u16> {
+    match number {
+        Number::Direct(number) => Some(number),
+        Number::At(..) | Number::Parameter(_) | Number::Own(_) => None,
+    }
+}

@@ -1,0 +1,319 @@
+//! A program that a machine runs: its CPU between the memory of the machine and the calls of the machine.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::image::{AsBytes, Bytes, DataBlock, Format, Location, Memory, Names, Part};
+use crate::plc::{PlcFault, PlcIo, PlcProgram, ProgramCause, Tested};
+use crate::source::{Place, Problem};
+use crate::units::Time;
+
+use super::compile::{Settings, Source, compile};
+use super::coverage::Coverage;
+use super::engine::{Area, Cpu, CpuOptions, CpuState, Named, Seen, Stop};
+use super::folder::Folder;
+use super::program::Program;
+use super::text::finding::Finding;
+use super::view::{Map, View};
+
+/// A STEP 7 program as the PLC program of a machine.
+#[derive(Debug)]
+pub struct LoadedProgram {
+    name: String,
+    cpu: Cpu,
+    cycle: Option<Time>,
+    map: Arc<Map>,
+    /// The process image of the inputs, for one scan.
+    inputs: Vec<u8>,
+    /// The paths of its sources and their texts.
+    files: Arc<[(String, String)]>,
+    /// The places of statements that causes have named.
+    places: Arc<Mutex<BTreeMap<u32, Arc<str>>>>,
+    /// The NC cycle of its last part, for causes.
+    ran: u64,
+}
+
+/// The folder of a program by its name: below the first of these directories that has it, or else below the first.
+#[must_use]
+pub fn folder(name: &str, directories: &[&Path]) -> PathBuf {
+    let mut folders = directories.iter().map(|directory| directory.join(name));
+    folders.clone().find(|folder| folder.is_dir()).or_else(|| folders.next()).unwrap_or_else(|| PathBuf::from(name))
+}
+
+/// Reads and compiles the program in a folder. `name` is the one by which a machine names it.
+///
+/// # Errors
+/// The folder cannot be read, or the compiler has findings; the problem is the first of them.
+pub fn load(folder: &Path, name: &str) -> Result<LoadedProgram, Problem> {
+    let Folder { mut sources, toml } = Folder::read(folder)?;
+    let paths: Vec<String> = sources.iter().map(|source| source.name.clone()).collect();
+    for source in &mut sources {
+        // Messages of a run name the file within the folder, so that they are the same on every computer.
+        let file = Path::new(&source.name).file_name();
+        source.name = file.map_or_else(|| source.name.clone(), |file| file.to_string_lossy().into_owned());
+    }
+    let mut program = LoadedProgram::compile(&sources, &toml.settings, name).map_err(|findings| {
+        let count = findings.len();
+        let Some(Finding { file, line, context, what, cure, .. }) = findings.into_iter().next() else {
+            return Place::file(name).problem("this program cannot be loaded", "");
+        };
+        let what = if context.is_empty() { what } else { format!("{context}: {what}") };
+        let further = if count > 1 {
+            format!("`opennck plc check {}` lists all {count} findings", folder.display())
+        } else {
+            String::new()
+        };
+        let cure = [cure, further].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ");
+        Place::file(&folder.join(file).display().to_string()).at_line(line).problem(what, cure)
+    })?;
+    program.cycle = toml.cycle;
+    program.files = paths.into_iter().zip(program.files.iter().map(|(_, text)| text.clone())).collect();
+    if let Some(period) = toml.ob35 {
+        program.cpu =
+            Cpu::new(program.cpu.shared_program(), CpuOptions { ob35_nanos: period.nanos(), ..program.cpu.options() });
+    }
+    Ok(program)
+}
+
+impl LoadedProgram {
+    /// Compiles sources to a program with this name.
+    ///
+    /// # Errors
+    /// What the compiler found.
+    pub fn compile(sources: &[Source], settings: &Settings, name: &str) -> Result<Self, Vec<Finding>> {
+        let compiled = compile(sources, settings);
+        let program = compiled.program.ok_or(compiled.findings)?;
+        Ok(Self {
+            name: name.to_owned(),
+            cpu: Cpu::new(Arc::new(program), CpuOptions::default()),
+            cycle: None,
+            map: Arc::new(Map::default()),
+            inputs: Vec::new(),
+            files: sources.iter().map(|source| (source.name.clone(), source.text.clone())).collect(),
+            places: Arc::default(),
+            ran: 0,
+        })
+    }
+
+    /// The program as a trait object.
+    #[must_use]
+    pub fn boxed(self) -> Box<dyn PlcProgram> {
+        Box::new(self)
+    }
+
+    /// The program.
+    #[must_use]
+    pub fn program(&self) -> &Program {
+        self.cpu.program()
+    }
+
+    fn cause(&self, seen: &Seen) -> Option<ProgramCause> {
+        let (part, bit) = self.place(seen.place)?;
+        let tested = seen.tested.iter().filter_map(|&(named, value)| match named {
+            Named::Timer(number) => Some(Tested::Timer(number, value)),
+            Named::Counter(number) => Some(Tested::Counter(number, value)),
+            Named::Area(..) | Named::Block(..) => {
+                let (part, bit) = self.place(named)?;
+                let (offset, bit) = (bit / 8, u8::try_from(bit % 8).ok()?);
+                Some(Tested::Bit(Location { part, offset, bit, width: 1, format: Format::Unsigned }, value))
+            }
+        });
+        Some(ProgramCause {
+            part,
+            bit,
+            bits: seen.bits,
+            value: seen.value,
+            statement: self.place_of(seen.pc),
+            tested: tested.collect(),
+        })
+    }
+
+    /// The place of a statement, whose text all of its causes share.
+    fn place_of(&self, pc: u32) -> Arc<str> {
+        let mut known = self.places.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(known.entry(pc).or_insert_with(|| self.cpu.program().place(pc).into()))
+    }
+
+    /// The part of the memory in which something is, and its address in bits.
+    fn place(&self, named: Named) -> Option<(Part, u32)> {
+        Some(match named {
+            Named::Area(Area::Inputs, bit) => (Part::Inputs, bit),
+            Named::Area(Area::Outputs, bit) => (Part::Outputs, bit),
+            Named::Area(Area::Flags, bit) => (Part::Flags, bit),
+            Named::Timer(number) => (Part::Timers, u32::from(number) * 16),
+            Named::Counter(number) => (Part::Counters, u32::from(number) * 16),
+            Named::Block(number, bit) => {
+                let (part, byte) = self.map.place(number, bit / 8)?;
+                (part, byte * 8 + bit % 8)
+            }
+        })
+    }
+
+    /// Runs a part of a cycle on the memory, and shows its timers and counters there.
+    fn run(
+        &mut self,
+        io: &mut PlcIo<'_, AsBytes>,
+        run: impl FnOnce(&mut Cpu, &mut View<'_>, i64) -> Result<(), Box<Stop>>,
+    ) -> Result<(), PlcFault> {
+        let Self { cpu, map, inputs, ran, .. } = self;
+        if std::mem::replace(ran, io.cycle) != io.cycle
+            && let Some(observed) = &mut cpu.observed
+        {
+            observed.seen.clear();
+        }
+        let sizes = cpu.program().sizes();
+        for number in 0..sizes.counters {
+            // A client or a scenario has set the counter.
+            let number = u16::try_from(number).unwrap_or(u16::MAX);
+            let word = io.counters.word(usize::from(number) * 2);
+            if cpu.counter_word(number) != Some(word) {
+                cpu.set_counter_word(number, word);
+            }
+        }
+        let now = io.time.nanos();
+        let done = run(cpu, &mut View::new(map, io, inputs), now);
+        for number in 0..sizes.timers {
+            let number = u16::try_from(number).unwrap_or(u16::MAX);
+            io.timers.set_word(usize::from(number) * 2, cpu.timer_word(number, now).unwrap_or(0));
+        }
+        for number in 0..sizes.counters {
+            let number = u16::try_from(number).unwrap_or(u16::MAX);
+            io.counters.set_word(usize::from(number) * 2, cpu.counter_word(number).unwrap_or(0));
+        }
+        done.map_err(|stop| PlcFault { reason: stop.to_string(), diagnosis: Some(stop.diagnosis()) })
+    }
+}
+
+impl PlcProgram for LoadedProgram {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Areas become as large as the program needs them. Its data blocks are added, but for those of the interface, whose bytes are the
+    /// interface, and those that the machine has already.
+    fn install(&mut self, memory: &mut Memory, names: &Names) {
+        let program = self.cpu.program();
+        let sizes = program.sizes();
+        let areas = [
+            (&mut memory.inputs, sizes.inputs),
+            (&mut memory.outputs, sizes.outputs),
+            (&mut memory.flags, sizes.flags),
+            (&mut memory.timers, sizes.timers * 2),
+            (&mut memory.counters, sizes.counters * 2),
+        ];
+        for (bytes, size) in areas {
+            enlarge(bytes, size as usize);
+        }
+        for block in program.data_blocks() {
+            let is_untouched = |bytes: &Bytes| bytes.iter().all(|byte| *byte == 0) && is_standard(block.number, names);
+            if names.profile.has(block.number) || memory.blocks.get(block.number).is_some_and(|old| !is_untouched(old))
+            {
+                continue;
+            }
+            let name = block.symbol.as_deref().map(Into::into);
+            memory.blocks.put(DataBlock { number: block.number, name, bytes: Bytes::from(block.bytes.clone()) });
+        }
+        self.map = Arc::new(Map::new(memory, names));
+        self.inputs = Vec::with_capacity(memory.inputs.len());
+    }
+
+    fn cycle(&self) -> Option<Time> {
+        self.cycle
+    }
+
+    fn startup(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        self.run(io, |cpu, view, now| cpu.startup(view, now))
+    }
+
+    fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        self.run(io, |cpu, view, now| cpu.scan(view, now))
+    }
+
+    fn has_interrupts(&self) -> bool {
+        self.cpu.has_interrupts()
+    }
+
+    fn interrupt(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        if !self.cpu.interrupt_is_due(io.time.nanos()) {
+            return Ok(());
+        }
+        self.run(io, |cpu, view, now| cpu.interrupt(view, now))
+    }
+
+    fn save(&self) -> Vec<u8> {
+        postcard::to_stdvec(self.cpu.state()).expect("plain data can be serialized")
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
+        let state = postcard::take_from_bytes::<CpuState>(saved).ok();
+        let state = state.and_then(|(state, rest)| rest.is_empty().then_some(state));
+        if state.is_some_and(|state| self.cpu.restore(state)) {
+            return Ok(());
+        }
+        Err(Problem::new(
+            format!(
+                "expected the saved state of the STEP 7 program `{}`, found {} other bytes",
+                self.name,
+                saved.len()
+            ),
+            "restore it with the sources with which it was saved",
+        ))
+    }
+
+    fn fork(&self) -> Option<Box<dyn PlcProgram>> {
+        Some(Box::new(Self {
+            name: self.name.clone(),
+            cpu: self.cpu.clone(),
+            cycle: self.cycle,
+            map: Arc::clone(&self.map),
+            inputs: Vec::with_capacity(self.inputs.capacity()),
+            files: Arc::clone(&self.files),
+            places: Arc::clone(&self.places),
+            ran: self.ran,
+        }))
+    }
+
+    fn reset(&mut self) {
+        let observed = self.cpu.observed.take();
+        self.cpu = Cpu::new(self.cpu.shared_program(), self.cpu.options());
+        self.cpu.observed = observed;
+    }
+
+    fn observe(&mut self) {
+        self.cpu.observe();
+    }
+
+    fn observe_every_write(&mut self) {
+        self.cpu.observe();
+        if let Some(observed) = &mut self.cpu.observed {
+            observed.has_all_writes = true;
+        }
+    }
+
+    fn causes(&self, cycle: u64) -> Vec<ProgramCause> {
+        let Some(observed) = self.cpu.observed.as_ref().filter(|_| self.ran == cycle) else { return Vec::new() };
+        observed.seen.iter().filter_map(|seen| self.cause(seen)).collect()
+    }
+
+    fn symbols(&self) -> Option<&Arc<BTreeMap<String, String>>> {
+        Some(self.cpu.program().symbols())
+    }
+
+    fn coverage(&self) -> Option<Coverage> {
+        let observed = self.cpu.observed.as_ref()?;
+        Some(Coverage::of(&self.name, self.cpu.program(), observed, self.files.to_vec()))
+    }
+}
+
+fn is_standard(number: u16, names: &Names) -> bool {
+    names.interface().tables().standard_blocks.contains(&number)
+}
+
+fn enlarge(bytes: &mut Bytes, size: usize) {
+    if bytes.len() < size {
+        let mut longer = bytes.to_vec();
+        longer.resize(size, 0);
+        *bytes = Bytes::from(longer);
+    }
+}

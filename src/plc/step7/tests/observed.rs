@@ -1,0 +1,220 @@
+//! What an observed CPU remembers: the operands that made a result, and what ran.
+
+use std::sync::Arc;
+
+use proptest::prelude::{Just, Strategy, prop_assert, prop_assert_eq, prop_oneof, proptest};
+
+use super::{Plc, SECOND, ob1};
+use crate::plc::step7::Coverage;
+use crate::plc::step7::engine::{Area, Cpu, CpuOptions, Named, OwnMemory};
+
+const fn i(bit: u32) -> Named {
+    Named::Area(Area::Inputs, bit)
+}
+
+const fn m(byte: u32, bit: u32) -> Named {
+    Named::Area(Area::Flags, byte * 8 + bit)
+}
+
+const fn q(bit: u32) -> Named {
+    Named::Area(Area::Outputs, bit)
+}
+
+/// A CPU that is observed, with inputs.
+fn plc(statements: &str, inputs: u8) -> Plc {
+    let mut plc = Plc::of_statements(statements);
+    plc.cpu.observe();
+    plc.memory.inputs[0] = inputs;
+    plc
+}
+
+/// The changes of the next scan: place, and the operands that made it.
+fn seen(plc: &mut Plc) -> Vec<(Named, Vec<(Named, bool)>)> {
+    plc.cpu.observed.as_mut().unwrap().seen.clear();
+    plc.after(SECOND);
+    let seen = &plc.cpu.observed.as_ref().unwrap().seen;
+    seen.iter().map(|seen| (seen.place, seen.tested.to_vec())).collect()
+}
+
+#[test]
+fn the_decisive_operands_are_named() {
+    let cases: [(&str, u8, &[(Named, bool)]); 9] = [
+        ("A I 0.0; AN I 0.1; = Q 0.0;", 0b001, &[(i(0), true), (i(1), false)]),
+        ("O I 0.0; O I 0.1; = Q 0.0;", 0b010, &[(i(1), true)]),
+        ("A I 0.0; A I 0.1; O; A I 0.2; = Q 0.0;", 0b110, &[(i(2), true)]),
+        ("A( ; O I 0.0; O I 0.1; ) ; A I 0.2; = Q 0.0;", 0b110, &[(i(1), true), (i(2), true)]),
+        ("X I 0.0; X I 0.1; = Q 0.0;", 0b010, &[(i(0), false), (i(1), true)]),
+        ("A I 0.0; NOT; = Q 0.0;", 0, &[(i(0), false)]),
+        // An edge: what is before it.
+        ("A I 0.0; FP M 20.0; = Q 0.0;", 1, &[(i(0), true)]),
+        // A comparison is a value of its own; the contact beside it is named.
+        ("L MW 30; L 5; <I; A I 0.0; = Q 0.0;", 1, &[(i(0), true)]),
+        // LAD branches through a local bit.
+        (
+            "A I 0.0; AN I 0.1; = L 40.0; A L 40.0; BLD 102; A I 0.2; = Q 0.0;",
+            0b101,
+            &[(i(0), true), (i(1), false), (i(2), true)],
+        ),
+    ];
+    for (statements, inputs, wanted) in cases {
+        let all = seen(&mut plc(statements, inputs));
+        let (_, tested) = all.iter().find(|(place, _)| *place == q(0)).unwrap_or_else(|| panic!("{statements}"));
+        assert_eq!(tested, wanted, "{statements}");
+    }
+}
+
+/// Behind SET the jump that was not taken is the reason.
+#[test]
+fn the_jump_before_set_is_named() {
+    let mut plc = plc("A I 0.0; AN I 0.1; FP M 20.0; JCN a; SET; S M 1.0; R M 1.1; a: NOP 0;", 1);
+    plc.memory.flags[1] = 2;
+    let reasons = vec![(i(0), true), (i(1), false)];
+    assert_eq!(seen(&mut plc), [(m(20, 0), vec![]), (m(1, 0), reasons.clone()), (m(1, 1), reasons)][1..]);
+}
+
+#[test]
+fn the_contact_that_opened_is_named() {
+    let mut plc = plc("A I 0.0; A I 0.1; A I 0.2; = Q 0.0;", 0b111);
+    plc.scan();
+    plc.memory.inputs[0] = 0b101;
+    assert_eq!(seen(&mut plc), [(q(0), vec![(i(1), false)])]);
+    plc.memory.inputs[0] = 0b001;
+    assert_eq!(seen(&mut plc), [], "nothing changed");
+}
+
+/// After the first output the flag is no longer what was tested.
+#[test]
+fn an_operand_that_was_written_since_is_not_named() {
+    let mut plc = plc("O I 0.0; O M 1.0; = M 1.0; = Q 0.0;", 1);
+    assert_eq!(seen(&mut plc), [(m(1, 0), vec![(i(0), true)]), (q(0), vec![])]);
+}
+
+#[test]
+fn a_timer_is_named_and_its_start_too() {
+    let mut plc = plc("A I 0.0; L S5T#2S; SD T 5; A T 5; = Q 0.0;", 1);
+    assert_eq!(seen(&mut plc), [(Named::Timer(5), vec![(i(0), true)])]);
+    assert_eq!(seen(&mut plc), []);
+    assert_eq!(seen(&mut plc), [(q(0), vec![(Named::Timer(5), true)])]);
+    plc.memory.inputs[0] = 0;
+    assert_eq!(seen(&mut plc), [(Named::Timer(5), vec![(i(0), false)]), (q(0), vec![(Named::Timer(5), false)])]);
+}
+
+#[test]
+fn a_counter_is_named_and_what_counted() {
+    let mut plc = plc("A I 0.0; CU C 3; A C 3; = Q 0.0;", 1);
+    assert_eq!(seen(&mut plc), [(Named::Counter(3), vec![(i(0), true)]), (q(0), vec![(Named::Counter(3), true)])]);
+}
+
+/// Through an instance: the parameter is copied, tested there, and its result copied out.
+#[test]
+fn parameters_lead_to_their_operands() {
+    let text = "FUNCTION_BLOCK FB 1\nVAR_INPUT\ngo : BOOL;\nEND_VAR\nVAR_OUTPUT\non : BOOL;\nEND_VAR\nBEGIN\nA #go; = #on;\nEND_FUNCTION_BLOCK\n\
+        DATA_BLOCK DB 20\nFB 1\nBEGIN\nEND_DATA_BLOCK\n\
+        FUNCTION FC 1 : VOID\nVAR_INPUT\ngo : BOOL;\nEND_VAR\nVAR_OUTPUT\non : BOOL;\nEND_VAR\nBEGIN\nA #go; = #on;\nEND_FUNCTION\n\
+        ORGANIZATION_BLOCK OB 1\nBEGIN\nCALL FB 1 , DB 20 ( go := I 0.0, on := Q 0.0 ); CALL FC 1 ( go := I 0.1, on := Q 0.1 );\nEND_ORGANIZATION_BLOCK\n";
+    let mut plc = Plc::new(text);
+    plc.cpu.observe();
+    plc.memory.inputs[0] = 3;
+    let (go, on) = (Named::Block(20, 0), Named::Block(20, 16));
+    assert_eq!(
+        seen(&mut plc),
+        [(go, vec![(i(0), true)]), (on, vec![(go, true)]), (q(0), vec![(on, true)]), (q(1), vec![(i(1), true)]),]
+    );
+}
+
+/// The DB register is another one when the output is written.
+#[test]
+fn operands_in_data_blocks_keep_their_block() {
+    let text = "DATA_BLOCK DB 10\nSTRUCT\na : BOOL;\nEND_STRUCT;\nBEGIN\na := TRUE;\nEND_DATA_BLOCK\n\
+        DATA_BLOCK DB 11\nSTRUCT\na : BOOL;\nEND_STRUCT;\nBEGIN\na := TRUE;\nEND_DATA_BLOCK\n\
+        ORGANIZATION_BLOCK OB 1\nBEGIN\nA DB10.DBX 0.0; A DBX 0.0; A DB11.DBX 0.0; = Q 0.0;\nEND_ORGANIZATION_BLOCK\n";
+    let mut plc = Plc::new(text);
+    plc.cpu.observe();
+    let block = |number| (Named::Block(number, 0), true);
+    assert_eq!(seen(&mut plc), [(q(0), vec![block(10), block(11)])]);
+}
+
+#[test]
+fn observing_changes_no_result() {
+    let statements = "A I 0.0; FP M 1.0; = M 1.1; A M 1.1; JCN a; L MW 4; + 1; T MW 4; a: A I 0.1; L S5T#1S; SE T 1; A T 1; = Q 0.0;";
+    let (mut one, mut other) = (Plc::of_statements(statements), plc(statements, 0));
+    for inputs in [0, 1, 3, 2, 1, 0, 3] {
+        for plc in [&mut one, &mut other] {
+            plc.memory.inputs[0] = inputs;
+            plc.after(SECOND / 3);
+        }
+        assert_eq!((&one.memory, one.cpu.state()), (&other.memory, other.cpu.state()));
+    }
+}
+
+#[test]
+fn coverage_counts_statements_networks_branches_and_contacts() {
+    let text = ob1(
+        "A I 0.0;\n= M 1.0;\nAN I 0.0;\nJC a;\nA I 0.1; // never\n= M 1.1;\na: NOP 0;\nNETWORK\nA M 1.0;\n= M 1.2;\nBEU;\nNETWORK\nA I 0.2;\n= M 1.3;",
+    );
+    let program = super::program(&text);
+    let mut observed = Cpu::new(Arc::clone(&program), CpuOptions::default());
+    let mut memory = OwnMemory::new(&program);
+    observed.observe();
+    let mut coverage = |inputs: u8| {
+        memory.inputs[0] = inputs;
+        observed.scan(&mut memory, 0).unwrap();
+        let files = vec![("a.awl".to_owned(), String::new())];
+        Coverage::of("p/a", &program, observed.observed.as_ref().unwrap(), files)
+    };
+    // Without I 0.0 the jump is taken: statements 5 and 6 do not run, nor the network after BEU, nor what `ob1` adds.
+    let first = coverage(0);
+    let counts = first.counts();
+    assert_eq!((counts.statements, counts.networks), ([8, 18], [2, 3]));
+    assert_eq!((counts.branches, counts.contacts), ([1, 2], [0, 5]));
+    assert_eq!(
+        first.unchanged().map(|one| (one.line, one.contact.unwrap()[1])).collect::<Vec<_>>(),
+        [(13, false), (15, false), (21, false)]
+    );
+    // With I 0.0: contacts 1, 3 and the one of network 2 have changed.
+    let counts = coverage(1).counts();
+    assert_eq!((counts.statements, counts.branches, counts.contacts), ([10, 18], [2, 2], [3, 5]));
+    assert!(coverage(1).summary().starts_with(
+        "p/a: 10 of 18 statements (55 %), 2 of 3 networks (66 %), 2 of 2 branches (100 %), 3 of 5 contacts"
+    ));
+}
+
+/// Bit statements on M 0.0 to M 0.5.
+fn chain() -> impl Strategy<Value = String> {
+    let operand = (prop_oneof![Just("A"), Just("AN"), Just("O"), Just("ON"), Just("X"), Just("XN")], 0..6_u8)
+        .prop_map(|(operation, bit)| format!("{operation} M 0.{bit};"));
+    let part = prop_oneof![
+        6 => operand.clone(),
+        1 => Just("O;".to_owned()),
+        1 => Just("NOT;".to_owned()),
+        2 => (prop_oneof![Just("A("), Just("AN("), Just("O("), Just("X("), Just("XN(")], proptest::collection::vec(operand.clone(), 1..4))
+            .prop_map(|(open, inner)| format!("{open} ; {} ) ;", inner.join(" "))),
+    ];
+    (operand, proptest::collection::vec(part, 0..8)).prop_map(|(first, rest)| format!("{first} {}", rest.join(" ")))
+}
+
+proptest! {
+    /// With the named operands as they were, the result is the same whatever the others are.
+    #[test]
+    fn the_named_operands_decide_alone(chain in chain(), flags in 0..64_u8, others in 0..64_u8) {
+        let mut plc = Plc::of_statements(&format!("{chain} = Q 0.0;"));
+        plc.cpu.observe();
+        plc.memory.flags[0] = flags;
+        plc.scan();
+        let result = plc.memory.outputs[0] & 1;
+        // The other way round, so that the next scan changes the output.
+        plc.memory.outputs[0] = 1 - result;
+        let all = seen(&mut plc);
+        prop_assert_eq!(all.len(), 1, "{}", chain);
+        let tested = &all[0].1;
+        let mut kept = 0;
+        for (named, value) in tested {
+            let Named::Area(Area::Flags, bit) = named else { panic!("{named:?}") };
+            prop_assert_eq!(*value, flags >> bit & 1 == 1, "{}", &chain);
+            kept |= 1 << bit;
+        }
+        plc.memory.flags[0] = flags & kept | others & !kept;
+        plc.scan();
+        prop_assert!(tested.is_empty() || plc.memory.outputs[0] & 1 == result, "{}", chain);
+    }
+}
