@@ -158,15 +158,20 @@ impl SpindleParameters {
         factor(code, self.override_is_gray, &self.override_factors, self.override_limit)
     }
 
-    /// The direction in which oscillation begins, with its cycles.
+    /// The direction in which oscillation begins, with its cycles, the present one included.
     #[must_use]
     pub fn first_oscillation(&self) -> (i8, u64) {
         (self.first_direction, self.oscillation_cycles(self.first_direction))
     }
 
-    /// MD35440 clockwise, MD35450 counterclockwise.
+    /// The direction in the next cycle of oscillation, with its cycles that are left, that one included.
     #[must_use]
-    pub fn oscillation_cycles(&self, direction: i8) -> u64 {
+    pub fn next_oscillation(&self, (direction, left): (i8, u64)) -> (i8, u64) {
+        if left > 1 { (direction, left - 1) } else { (-direction, self.oscillation_cycles(-direction)) }
+    }
+
+    /// MD35440 clockwise, MD35450 counterclockwise.
+    fn oscillation_cycles(&self, direction: i8) -> u64 {
         self.oscillation_times[usize::from(direction < 0)]
     }
 

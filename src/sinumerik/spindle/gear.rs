@@ -137,8 +137,7 @@ impl State {
             _ if !may => None,
             None if !stands => None,
             None => Some(own.first_oscillation()),
-            Some((direction, 0)) => Some((-direction, own.oscillation_cycles(-direction))),
-            Some((direction, left)) => Some((direction, left - 1)),
+            Some(present) => Some(own.next_oscillation(present)),
         };
         let direction = match oscillation {
             None => 0,

@@ -28,8 +28,7 @@ impl State {
             _ if holder.is_some() => None,
             None if !stands => None,
             None => Some(own.first_oscillation()),
-            Some((direction, 0)) => Some((-direction, own.oscillation_cycles(-direction))),
-            Some((direction, left)) => Some((direction, left - 1)),
+            Some(present) => Some(own.next_oscillation(present)),
         };
         let direction = oscillation.map_or(0, |(direction, _)| direction);
         let velocity = own.oscillation_speed * f64::from(direction);
