@@ -93,7 +93,7 @@ impl State {
                     None if mode == Mode::Mda => {}
                     None => {
                         let event = self.log.note_one(place, Rule::NoProgramSelected, pressed, EventId::NONE);
-                        let name = self.programs[channel].selected.as_deref().unwrap_or("");
+                        let name = self.programs[channel].selected.as_deref().unwrap_or(alarms::NONE_SELECTED);
                         let name = Parameter::Text(short_text(name));
                         let shown = [Parameter::Channel(channel), Parameter::None, name, Parameter::None];
                         self.alarms.raise(alarms::NO_PROGRAM, place, shown, event);
