@@ -54,7 +54,7 @@ impl State {
         if active != next.handwheels {
             let drf = channel_signal(unit.channel, crate::image::channel_to_nck::activate_drf, selected);
             let wheel = active_handwheel(number, active);
-            next.cause = self.log.note(
+            next.handwheel_cause = self.log.note(
                 Place::Axis(number),
                 Rule::DrfSelected,
                 [drf, wheel, Input::None],
@@ -109,7 +109,7 @@ impl State {
         if command != next.command {
             let rule = if command == 0 { Rule::DrfRests } else { Rule::DrfMoves };
             let wheel = active_handwheel(number, next.handwheels);
-            let parent = if turned.is_some() { turned } else { next.cause };
+            let parent = if turned.is_some() { turned } else { next.handwheel_cause };
             for member in unit.members() {
                 let event = self.log.note_one(Place::Axis(member), rule, wheel, parent);
                 self.axes[member].overlay.cause = event;
@@ -121,9 +121,12 @@ impl State {
             let axis = &mut self.axes[member];
             let cause = if member == number { next.cause } else { axis.overlay.cause };
             // Only the leading axis has a handwheel.
-            let handwheels = if member == number { next.handwheels } else { 0 };
+            let (handwheels, handwheel_cause) = match member == number {
+                true => (next.handwheels, next.handwheel_cause),
+                false => (0, axis.overlay.handwheel_cause),
+            };
             let by = next.setpoint.position - axis.overlay.setpoint.position;
-            axis.overlay = super::state::Overlay { cause, handwheels, ..next };
+            axis.overlay = super::state::Overlay { cause, handwheels, handwheel_cause, ..next };
             if axis.measuring_system.is_some() {
                 axis.actual -= by;
                 axis.monitor.shift(Position::ZERO - by);
@@ -158,8 +161,9 @@ impl State {
 
 impl Axis {
     fn absorb_overlay(&mut self) {
-        let (by, handwheels, cause) = (self.overlay.position(), self.overlay.handwheels, self.overlay.cause);
-        self.overlay = super::state::Overlay { handwheels, cause, ..super::state::Overlay::default() };
+        let super::state::Overlay { handwheels, handwheel_cause, cause, .. } = self.overlay;
+        let by = self.overlay.position();
+        self.overlay = super::state::Overlay { handwheels, handwheel_cause, cause, ..super::state::Overlay::default() };
         if by != Position::ZERO && self.measuring_system.is_some() {
             self.actual += by;
             self.setpoint.shift(by);

@@ -36,7 +36,9 @@ pub(in crate::sinumerik) struct Overlay {
     pub handwheels: u8,
     /// The traverse command of its movement: +1, −1 or 0.
     pub command: i8,
-    /// The event behind handwheel and command.
+    /// The event behind the handwheel.
+    pub handwheel_cause: EventId,
+    /// The event behind the command.
     pub cause: EventId,
 }
 
