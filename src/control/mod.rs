@@ -343,7 +343,7 @@ pub trait Control: Send + Sync + Debug {
         None
     }
 
-    /// The value of a machine datum in the units of causes: lengths in mm, velocities of rotary axes in degrees/min. The default is a control whose data have these units.
+    /// The value of a machine datum in the units of causes: lengths in mm. The default is a control whose data have these units.
     fn in_causes(&self, _number: u32, _axis: Option<AxisNumber>, value: f64) -> f64 {
         value
     }

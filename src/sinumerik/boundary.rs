@@ -246,13 +246,7 @@ impl Control for Nck {
     }
 
     fn in_causes(&self, number: u32, axis: Option<AxisNumber>, value: f64) -> f64 {
-        let data = self.active();
-        let is_rotary = axis.is_some_and(|axis| data.axes[axis].is_rot_ax);
-        let is_velocity = Target::new(number, axis.map_or(Owner::Nck, Owner::Axis), 0)
-            .is_ok_and(|target| ["mm/min", "rev/min"].contains(&target.datum().unit));
-        // Causes compare velocities of a rotary axis in degrees/min.
-        let turns = if is_rotary && is_velocity { 360.0 } else { 1.0 };
-        data.metric(number, axis, value) * turns
+        self.active().metric(number, axis, value)
     }
 
     fn configuration(&self, names: &Names) -> Vec<String> {

@@ -7,7 +7,7 @@
 use crate::control::{Class, EncoderModel, Finding, Owner, Site, Value};
 use crate::image::Names;
 use crate::sinumerik::alarms::{self, Alarm};
-use crate::sinumerik::machine_data::{Archive, Axis, check};
+use crate::sinumerik::machine_data::{Archive, Axis, check, datum_name};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::groupings::Fault;
 use crate::sinumerik::parameters::spindle::is_spindle;
@@ -374,7 +374,7 @@ fn seen_by_the_plc(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>
         findings.push(Finding {
             place: Some(unknown.place.clone()),
             number: Some(*number),
-            datum: format!("MD{number} {}", unknown.name),
+            datum: format!("{} {}", datum_name(*number), unknown.name),
             value: unknown.value.clone(),
             owner: key.1,
             ..Finding::new(Class::ActsOtherwise, *what, *cure)

@@ -40,14 +40,19 @@ rules! {
     PulsesDisabled "O-25" "pulses disabled";
     ControllerOn "O-20" "controller enable";
     ControllerOff "SIG-01" "controller enable missing in the unit";
+    PulsesMissing "O-25" "no pulses on an axis of the unit";
+    UnitParked "SIG-08" "an axis of the unit is parked";
+    SwitchingOffGoesOn "O-25" "what has begun to switch off does so to its end";
     FollowUp "SIG-02" "follow-up mode without controller enable";
     FollowUpByAlarm "SYN-01" "alarm with the reaction follow-up";
+    FollowUpByEmergencyStop "E-06" "follow-up in emergency stop";
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
     FollowUpByParking "SYN-01" "follow-up of a parked axis";
     BrakeOpens "K-20" "the holding brake is to open";
     BrakeCloses "K-20" "the holding brake is to close";
-    BrakeReached "K-20" "the holding brake is open, or begins to close";
+    BrakeIsOpen "K-20" "the holding brake is open";
+    BrakeLeavesOpen "K-20" "the holding brake begins to close";
     ParameterSet "SIG-05" "parameter set selected by 9.0 to 9.2";
     ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that does not exist";
     ParameterSetJumps "26050" "the parameter set selected by 9.0 to 9.2 has another load gear: the actual value would jump";
@@ -73,7 +78,6 @@ rules! {
     HeldByZeroSetting "O-21" "the zero setting of the override switch holds the movement, also while the override is not active";
     FeedReleased "SIG-06" "feed stop no longer holds the movement";
     OverrideReleased "O-03" "the override no longer holds the movement";
-    TargetReached "REF-31" "the setpoint has reached the target";
     CommandOfLeadingAxis "SIG-09" "the traverse command of the leading axis is also displayed here";
     WithoutCommand "SIG-09" "follows a synchronous axis without a traverse command";
     AllStationary "channel" "all axes of the channel are stationary";
@@ -173,8 +177,14 @@ rules! {
     OrderStarted "FC18" "the PLC starts a positioning axis";
     OrderRefused "FC18" "the positioning axis cannot be started";
     OrderMoves "FC18" "moves to the target";
+    OrderTargetReached "FC18" "the setpoint has reached the target";
     OrderReached "FC18" "in position, with exact stop fine";
-    OrderEnds "FC18" "the axis has come to rest";
+    OrderEnds "FC18" "the axis has come to rest before its target";
+    ActionStarts "command axis" "a synchronised action positions the axis";
+    ActionMoves "command axis" "moves to the target";
+    ActionTargetReached "command axis" "the setpoint has reached the target";
+    ActionReached "command axis" "in position, with exact stop fine";
+    ActionEnds "command axis" "the axis has come to rest before its target";
     OrderWithdrawn "FC18" "Start is 0";
     OrderDropped "FC18" "the rest of the way is dropped";
     SpindleOrder "FC18" "the PLC starts a function of the spindle";
@@ -207,6 +217,7 @@ rules! {
     SpindleClosesLoop "spindle" "the position is known, and the speed is low enough: position control";
     SpindleWithoutEncoder "22050" "a spindle without an active encoder cannot be positioned";
     SpindleMarkMissing "22051" "no zero mark in two revolutions";
+    SpindleTargetReached "spindle" "the setpoint has reached the target";
     SpindleInPosition "spindle" "the spindle is in position";
     SpindleIsAxis "spindle" "the spindle stands and is an axis";
     SpindleReset "spindle" "spindle reset";
@@ -245,6 +256,7 @@ rules! {
     ApproachStartedByChannel "REF-23" "channel-specific referencing";
     ApproachStartedByProgram "G74" "reference point approach by a program";
     ApproachStartedInGrouping "REF-04" "synchronous axis referenced after the leading axis";
+    ApproachTargetReached "REF-31" "the setpoint has reached the target";
     OnCamAtStart "REF-31" "on the cam at the start";
     WithoutCam "REF-31" "MD34000 = 0: no cam, zero mark search starts at once";
     CamReached "REF-31" "cam reached";
@@ -294,6 +306,7 @@ rules! {
     SynchronisationAborted "REF-13" "synchronisation interrupted, all axes referenced";
     ReferencingAborted "REF-12" "referencing interrupted";
     SynchronisingMotion "REF-09" "moves to the common position";
+    SynchronisingTargetReached "REF-09" "the setpoint has reached the common position";
     Synchronised "REF-10" "all axes at their target";
     SynchronismRestored "SYN-06" "back in position control within the standstill tolerance";
     SynchronismLostFollowUp "SYN-05" "follow-up";
@@ -360,10 +373,10 @@ rules! {
     Standstill "standstill" "";
     SetpointsOutput "O-29" "new setpoints are output";
     // Only on the 828D.
-    UserAlarm "P828-03" "the PLC sets a user alarm";
-    UserAlarmEnds "P828-03" "the PLC resets a user alarm";
-    UserAlarmAcknowledged "P828-03" "the PLC resets a user alarm and acknowledges it";
-    ValueRequested "P828-03" "the PLC requests this value";
+    UserAlarm "DB1600" "the PLC sets a user alarm";
+    UserAlarmEnds "DB1600" "the PLC resets a user alarm";
+    UserAlarmAcknowledged "DB1600" "the PLC resets a user alarm and acknowledges it";
+    ValueRequested "DB5700" "the PLC requests this value";
 }
 
 impl From<Rule> for RuleNumber {

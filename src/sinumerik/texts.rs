@@ -6,7 +6,7 @@ use crate::sinumerik::alarms::{Alarm, Cancel, not_raised};
 use crate::sinumerik::exchange;
 use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::gantry;
-use crate::sinumerik::machine_data::{Datum, Range, Scope, catalogue};
+use crate::sinumerik::machine_data::{Datum, Range, Scope, catalogue, datum_name};
 use crate::sinumerik::modelled::is_modelled;
 use crate::sinumerik::opening::has_effect;
 use crate::sinumerik::referencing;
@@ -60,7 +60,7 @@ impl Texts for Words {
     }
 
     fn datum_name(&self, number: u32) -> String {
-        format!("MD{number}")
+        datum_name(number)
     }
 
     fn cycle_data(&self) -> &'static str {

@@ -4,7 +4,7 @@ use super::Trace;
 use super::history::ProgramRow;
 use super::printable::signal_name;
 use crate::image::Names;
-use crate::units::Position;
+use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, six_decimals};
 
 /// The rule, its text if the inputs do not express it, and the inputs: `REF-11: MD37110[XF] = 0`,
@@ -41,8 +41,8 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             Some(format!("{}[{index},{}] = {value}", describe.datum_name(number), axis_name(axis, names)))
         }
         Input::Length(quantity, axis, length) => {
+            let (name, value) = input_name(quantity, length, per_turn(axis, describe));
             let axis = axis_name(axis, names);
-            let (name, value) = input_name(quantity, length);
             Some(format!("{axis}.{name} = {}", six_decimals(value)))
         }
         Input::Alarm(number) => Some(format!("alarm {}", describe.alarm_name(AlarmNumber(number)))),
@@ -51,8 +51,13 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
     }
 }
 
+/// The distance that a unit of the displayed velocity of an axis stands for: rev/min of a rotary axis are 360 degrees/min.
+pub(super) fn per_turn(axis: AxisNumber, describe: &dyn Describe) -> f64 {
+    if describe.is_rotary(axis) { 360.0 } else { 1.0 }
+}
+
 /// The name of a length, and its value in user units.
-pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str, f64) {
+pub(super) fn input_name(quantity: Quantity, length: Position, per_turn: f64) -> (&'static str, f64) {
     match quantity {
         Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
         Quantity::Position => (AxisValue::Position.name(), length.user()),
@@ -66,8 +71,8 @@ pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str,
         Quantity::Sag => ("sag", length.user()),
         Quantity::SetpointCompensation => (AxisValue::SetpointCompensation.name(), length.user()),
         Quantity::Distance => ("distance", length.user()),
-        // Events contain user units per second; all texts show user units per minute.
-        Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0),
-        Quantity::VelocityCommand => ("velocity_command", length.user() * 60.0),
+        // Events contain mm or degrees per second; all texts show mm/min or rev/min, as the values of the axis.
+        Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0 / per_turn),
+        Quantity::VelocityCommand => ("velocity_command", length.user() * 60.0 / per_turn),
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::Trace;
-use super::because::{because, by_program, input_name};
+use super::because::{because, by_program, input_name, per_turn};
 use super::history::ProgramRow;
 use super::lines::{Line, LineKind};
 use super::printable::signal_at;
@@ -62,7 +62,7 @@ impl CauseInput {
                 Self::Datum(format!("{number}[{index},{}]", place_name(Place::Axis(axis), names)), value)
             }
             Input::Length(quantity, axis, length) => {
-                let (name, value) = input_name(quantity, length);
+                let (name, value) = input_name(quantity, length, per_turn(axis, describe));
                 Self::Value(format!("{}.{name}", place_name(Place::Axis(axis), names)), six_decimals(value))
             }
             Input::Fault(fault) => Self::Fault(fault.name().to_owned()),

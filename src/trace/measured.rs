@@ -163,10 +163,11 @@ pub(super) fn possible(
         Quantity::Velocity => {
             // Events contain whole increments per second.
             let measured =
-                |values: AxisValues| Possible { value: values.velocity * per_turn, tolerance: INCREMENT * 60.0 };
+                |values: AxisValues| Possible { value: values.velocity, tolerance: INCREMENT * 60.0 / per_turn };
             // The velocity of the setpoint, whose ends are each rounded to half an increment.
-            let moved = (now.setpoint - before.setpoint).user() * 60.0 / cycle.seconds();
-            let setpoint = Possible { value: moved, tolerance: INCREMENT * 60.0 * (1.0 + 1.0 / cycle.seconds()) };
+            let moved = (now.setpoint - before.setpoint).user() * 60.0 / cycle.seconds() / per_turn;
+            let setpoint =
+                Possible { value: moved, tolerance: INCREMENT * 60.0 * (1.0 + 1.0 / cycle.seconds()) / per_turn };
             both.map(measured).into_iter().chain([setpoint]).collect()
         }
         Quantity::SetpointCompensation => both.map(|values| length(values.setpoint_compensation.user())).to_vec(),

@@ -63,6 +63,10 @@ fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable
     let signals = byte.iter().flat_map(|byte| byte.signals.iter().map(|signal| location(signal, byte.number)));
     for location in signals.flatten() {
         named_bits |= mask_in_byte(location, offset);
+        // A pattern means the signals of the profile.
+        if !names.profile.shows(location) {
+            continue;
+        }
         let printable = printable(names, location);
         if watch.shows_signal(&printable) {
             printables.push(printable);

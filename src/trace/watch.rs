@@ -96,7 +96,8 @@ impl Watch {
         let interface = names.interface();
         let of_owner = |(_, block, number): (&str, Block, u8)| {
             let signals = interface.signals().filter(move |signal| signal.block == block);
-            signals.filter_map(move |signal| Some(printable(names, interface.location(signal, number)?)))
+            let locations = signals.filter_map(move |signal| interface.location(signal, number));
+            locations.filter(|location| names.profile.shows(*location)).map(|location| printable(names, location))
         };
         let all = names.owners().flat_map(of_owner);
         all.filter(|printable| narrow.iter().any(|pattern| fits(pattern, printable))).collect()

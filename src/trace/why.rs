@@ -384,7 +384,10 @@ fn happening_of_kind(kind: &str, object: &str) -> (String, &'static str) {
         // `37110[2,XF]` is MD37110[2] of XF, which is its place.
         let (number, inside) = object.split_once('[').unwrap_or((object, ""));
         let index = inside.split([',', ']']).next().filter(|index| index.parse::<u8>().is_ok());
-        format!("MD{number}{}", index.map(|index| format!("[{index}]")).unwrap_or_default())
+        // As the control names them: 41000 to 43999 are setting data.
+        let is_setting = number.parse().is_ok_and(|number: u32| (41_000..44_000).contains(&number));
+        let kind = if is_setting { "SD" } else { "MD" };
+        format!("{kind}{number}{}", index.map(|index| format!("[{index}]")).unwrap_or_default())
     };
     match kind {
         "power_on" => ("power".to_owned(), "on"),

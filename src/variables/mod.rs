@@ -139,7 +139,7 @@ pub trait Describe {
     fn r_parameter_count(&self, _channel: ChannelNumber) -> usize {
         0
     }
-    /// The value of a machine datum in the units of causes: lengths in mm, velocities of rotary axes in degrees/min.
+    /// The value of a machine datum in the units of causes: lengths in mm.
     fn in_causes(&self, _number: u32, _axis: Option<AxisNumber>, value: f64) -> f64 {
         value
     }

@@ -313,7 +313,7 @@ alarms! {
     /// The chuck speed (MD35100 and 10 %) is exceeded.
     CHUCK_SPEED 22100
         [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
-        "axis %1 chuck speed exceeded";
+        "channel %1 spindle %2 chuck speed exceeded";
     /// No signal from the active encoder, or its cable is disconnected.
     ACTIVE_ENCODER_FAULT 25000
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn

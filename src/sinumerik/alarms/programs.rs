@@ -50,7 +50,7 @@ alarms! {
     14011 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 program does not exist %3";
     14012 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 too many program levels";
     14013 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 number of passes is not positive";
-    14014 [DISPLAY] CancelKey "channel %1 selected program %3 does not exist";
+    14014 [DISPLAY] CancelKey "channel %1 selected program does not exist: %3";
     14016 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 several M functions are replaced by subprograms";
     14020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 wrong value or number of parameters";
     14025 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 wrong ID of a synchronised action";
@@ -75,7 +75,7 @@ alarms! {
     14769 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 spindle %3: M%4 is one M function too many";
     14800 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 path feedrate is not positive";
     14810 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 feedrate of a positioning axis is negative %3";
-    15310 [DISPLAY] CancelKey "channel %1 block search: the program %2 does not exist";
+    15310 [DISPLAY] CancelKey "channel %1 block search: selected program does not exist: %2";
     15330 [DISPLAY] CancelKey "channel %1 block search: %2 is not a block number";
     15340 [DISPLAY] CancelKey "channel %1 block search: %2 is not a label";
     15350 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block search: block %2 not found up to the end of the program";
@@ -122,6 +122,9 @@ alarms! {
     20143 [DISPLAY] CancelKey "channel %1 synchronised action %3: command axis %4 is under control of the PLC";
     22321 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 PRESET not allowed during motion";
 }
+
+/// What 14014 and 15310 show instead of a name while no program is selected.
+pub(in crate::sinumerik) const NONE_SELECTED: &str = "none selected";
 
 /// PRESET while the axis moves.
 pub(in crate::sinumerik) const PRESET_IN_MOTION: AlarmNumber = AlarmNumber(22321);

@@ -37,12 +37,13 @@ struct Conditions {
     healthy: bool,
     /// The pulses that are missing are being enabled.
     starting: bool,
-    alarm: EventId,
+    /// Emergency stop, or an alarm with the reaction follow-up.
+    tracks: Option<(Rule, Input, EventId)>,
     /// Every setpoint and every axis is at rest.
     standing: bool,
     moving: bool,
-    /// The signal that removed the enable.
-    missing: Input,
+    /// The signal that removed the enable, with its rule.
+    missing: (Rule, Input),
     /// The axis and cause of alarm 21612.
     culprit: (AxisNumber, i64),
 }
@@ -156,7 +157,7 @@ impl State {
             if lost && conditions.moving && self.unit_is_on(&unit) {
                 let (axis, cause) = conditions.culprit;
                 let event =
-                    self.log.note_one(Place::Axis(axis), Rule::EnableLostInMotion, conditions.missing, EventId::NONE);
+                    self.log.note_one(Place::Axis(axis), Rule::EnableLostInMotion, conditions.missing.1, EventId::NONE);
                 let channel = Parameter::Channel(unit.channel);
                 let cause = [channel, Parameter::Axis(axis), Parameter::Number(cause), Parameter::None];
                 self.alarms.raise(alarms::ENABLE_RESET, Place::Axis(axis), cause, event);
@@ -266,10 +267,12 @@ impl State {
             follow_up: false,
             healthy: true,
             starting: true,
-            alarm: self.emergency_stop.active_cause().unwrap_or(EventId::NONE),
+            tracks: self.emergency_stop.active_cause().map(|cause| {
+                (Rule::FollowUpByEmergencyStop, nck_signal(nck_from_nck::emergency_stop_active, true), cause)
+            }),
             standing: true,
             moving: false,
-            missing: Input::None,
+            missing: (Rule::ControllerOff, Input::None),
             culprit: (unit.leader(), 0),
         };
         for number in unit.members() {
@@ -278,8 +281,10 @@ impl State {
             // A spindle in speed control brakes and turns again (S-05).
             conditions.moving |= axis.is_moving() && !axis.speed_controlled;
             conditions.follow_up |= signals.follow_up_mode();
-            if let Some(event) = self.alarms.with_reaction(Reaction::FOLLOW_UP, Some(Place::Axis(number))) {
-                conditions.alarm = event;
+            let place = Place::Axis(number);
+            let tracks = self.alarms.first_alarm(|at, alarm| at == place && alarm.reaction.has(Reaction::FOLLOW_UP));
+            if let Some((alarm, event)) = tracks {
+                conditions.tracks = Some((Rule::FollowUpByAlarm, Input::Alarm(alarm.0), event));
             }
             let Some((missing, cause)) = axis.missing_enable(signals) else { continue };
             if signals.controller_enable() {
@@ -288,8 +293,13 @@ impl State {
             } else {
                 conditions.enable = false;
             }
-            if conditions.missing == Input::None {
-                conditions.missing = axis_signal(number, missing, false);
+            if conditions.missing.1 == Input::None {
+                let rule = match missing {
+                    _ if !signals.controller_enable() => Rule::ControllerOff,
+                    _ if axis.measuring_system.is_none() => Rule::UnitParked,
+                    _ => Rule::PulsesMissing,
+                };
+                conditions.missing = (rule, axis_signal(number, missing, false));
                 conditions.culprit = (number, cause);
             }
         }
@@ -305,7 +315,7 @@ impl State {
 
     fn step_control(&mut self, number: AxisNumber, conditions: &Conditions, disable_cycles: u64) {
         let before = self.axes[number].enabling;
-        let wanted = conditions.enable && conditions.healthy && !conditions.alarm.is_some();
+        let wanted = conditions.enable && conditions.healthy && conditions.tracks.is_none();
         let powered = self.axes[number].enabling.pulses_enabled();
         let brake = self.axes[number].brake;
         let brake_holds = matches!(brake, Brake::Closed | Brake::Moving);
@@ -340,9 +350,9 @@ impl State {
         let parked = self.axes[number].measuring_system.is_none();
         let off =
             matches!(control, ControllerState::Off | ControllerState::SwitchingOn(_) | ControllerState::Holding(_));
-        let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
+        let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.tracks.is_some() || parked);
         // Follow-up lasts until position control is active, so that control starts at the actual value.
-        let waits_for_pulses = off && conditions.enable && conditions.starting && !conditions.alarm.is_some();
+        let waits_for_pulses = off && conditions.enable && conditions.starting && conditions.tracks.is_none();
         let follow_up = follow_up || before.follow_up && waits_for_pulses;
         self.axes[number].enabling.control = control;
         self.axes[number].enabling.follow_up = follow_up;
@@ -350,23 +360,19 @@ impl State {
         if before.controllers() != after.controllers() || before.follow_up != after.follow_up {
             // Switching off continues even if its reason is gone.
             let goes_off = matches!(before.control, ControllerState::Braking(_) | ControllerState::Holding(_));
-            let (rule, parent) = if wanted && goes_off {
-                (Rule::ControllerOff, self.axes[number].causes.enabling)
+            let (missing, causes) = (conditions.missing.1, &self.axes[number].causes);
+            let (rule, input, parent) = if wanted && goes_off {
+                (Rule::SwitchingOffGoesOn, Input::None, causes.enabling)
             } else if wanted {
-                (Rule::ControllerOn, EventId::NONE)
-            } else if conditions.alarm.is_some() {
-                (Rule::FollowUpByAlarm, conditions.alarm)
+                (Rule::ControllerOn, axis_signal(number, axis_to_nck::controller_enable, true), EventId::NONE)
+            } else if let Some(tracks) = conditions.tracks {
+                tracks
             } else if follow_up && !before.follow_up && parked {
-                (Rule::FollowUpByParking, self.axes[number].causes.measuring_system)
+                (Rule::FollowUpByParking, missing, causes.measuring_system)
             } else if follow_up && !before.follow_up {
-                (Rule::FollowUp, EventId::NONE)
+                (Rule::FollowUp, missing, EventId::NONE)
             } else {
-                (Rule::ControllerOff, EventId::NONE)
-            };
-            let input = if wanted && !goes_off {
-                axis_signal(number, axis_to_nck::controller_enable, true)
-            } else {
-                conditions.missing
+                (conditions.missing.0, missing, EventId::NONE)
             };
             let event = self.log.note_one(Place::Axis(number), rule, input, parent);
             self.axes[number].causes.enabling = event;

@@ -99,14 +99,14 @@ impl State {
     }
 
     /// The travel of an automatic movement, an approach or a synchronising motion. `begun` is its latest event, `begins` the
-    /// condition tested when motion begins later than that, `target` its target.
+    /// condition tested when motion begins later than that, `reached` the rule with which it ends at its target.
     pub(in crate::sinumerik) fn travel_on(
         &mut self,
         number: AxisNumber,
         travel: Travel,
         begun: EventId,
         begins: (Rule, Input),
-        target: Position,
+        (reached, target): (Rule, Position),
     ) {
         let axis = &self.axes[number];
         let before = axis.travel;
@@ -115,7 +115,7 @@ impl State {
         }
         let (rule, input) = match travel {
             Travel::None | Travel::Blocked(_) | Travel::LedMoving(_) | Travel::LedWaiting(_) => {
-                (Rule::TargetReached, Input::Length(Quantity::Target, number, target))
+                (reached, Input::Length(Quantity::Target, number, target))
             }
             Travel::Moving(_) | Travel::Waiting(_) if before.request() != travel.request() => begins,
             Travel::Moving(_) => axis.released(number),

@@ -115,7 +115,7 @@ impl Grouping {
         let (place, input) = (Place::Axis(axis), Input::Datum(37140, Some(leader), 0.0));
         let (rule, [first, second]) = self.reason(axis, code, view);
         let cause = log.note(place, rule, [input, first, second], EventId::NONE);
-        let channel = Parameter::Channel(view.owners.of(leader).channel);
+        let channel = Parameter::Channel(view.owners.of(axis).channel);
         let code = Parameter::Number(code + i64::from(self.number));
         let shown = [channel, Parameter::Axis(axis), code, Parameter::None];
         Want::Raise { alarm: alarms::IMPERMISSIBLE_AXIS_STATE, place, shown, cause }

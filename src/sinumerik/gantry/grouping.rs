@@ -184,7 +184,7 @@ impl State {
                     self.axes[axis].motion = motion;
                     if let Motion::GoTo { target, .. } = motion {
                         let begins = (Rule::SynchronisingMotion, Input::Length(Quantity::Target, axis, target));
-                        self.travel_on(axis, travel, cause, begins, target);
+                        self.travel_on(axis, travel, cause, begins, (Rule::SynchronisingTargetReached, target));
                     } else {
                         self.travel(axis, travel, cause);
                     }

@@ -40,7 +40,7 @@ fn inputs(number: AxisNumber, velocity: f64, too_fast: bool, axis: &AxisParamete
     let turn = |linear: f64| Position::PER_USER_UNIT * if axis.rotary { 360.0 } else { linear };
     let entered = |value: f64| (value * 1e6).round() / 1e6;
     let (datum, limit) = if too_fast {
-        (32000, entered(axis.maximum_velocity * 60.0 / turn(1.0)))
+        (32000, axis.entered_velocity(axis.maximum_velocity))
     } else if axis.jog_acceleration > axis.maximum_acceleration {
         (32301, entered(axis.jog_acceleration / turn(1_000.0)))
     } else {

@@ -17,7 +17,7 @@ use super::export;
 use super::groups::{group, is_of_another_list};
 use super::named::{resolve, split_indices};
 use super::reading::{Assignment, Author, Line, Reading};
-use super::table::{Datum, numbered};
+use super::table::{Datum, datum_name};
 use super::{MachineData, TableVariable, Target};
 use crate::control::{Class, Finding, Value};
 use crate::source::{Place, Problem};
@@ -359,7 +359,7 @@ fn parsed(datum: &Datum, line: &Line) -> Result<Value, Problem> {
 
 /// The number and the name of a datum: `MD37100 $MA_GANTRY_AXIS_TYPE[AX1]`.
 pub(super) fn with_number(number: Option<u32>, name: &str) -> String {
-    number.map_or_else(|| name.to_owned(), |number| format!("{} {name}", numbered(number)))
+    number.map_or_else(|| name.to_owned(), |number| format!("{} {name}", datum_name(number)))
 }
 
 /// The finding of a problem with a line.

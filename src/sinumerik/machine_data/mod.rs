@@ -44,6 +44,7 @@ pub(super) use check::unequal_data;
 pub use general::General;
 pub use reading::{Assignment, Member, refusal};
 pub use setting::Setting;
+pub(in crate::sinumerik) use table::datum_name;
 pub use table::{Datum, Effect, PerTable, Range, Scope};
 pub use tables::{CompensationTables, Points, SagTable};
 pub(super) use tables::{Element, TableRefusal, TableValue, TableVariable};

@@ -161,7 +161,7 @@ pub struct Datum {
 /// The number and the full name, `MD37100 $MA_GANTRY_AXIS_TYPE`.
 impl fmt::Display for Datum {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", numbered(self.number), self.full_identifier())
+        write!(f, "{} {}", datum_name(self.number), self.full_identifier())
     }
 }
 
@@ -179,7 +179,7 @@ impl Datum {
 }
 
 /// A number in its usual form: 41000 to 43999 are setting data, all others are machine data.
-pub(super) fn numbered(number: u32) -> String {
+pub(in crate::sinumerik) fn datum_name(number: u32) -> String {
     let kind = if (41_000..44_000).contains(&number) { "SD" } else { "MD" };
     format!("{kind}{number}")
 }

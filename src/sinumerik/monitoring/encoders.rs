@@ -60,9 +60,7 @@ impl State {
             } else {
                 (Rule::FrequencyNormal, 36302, percent)
             };
-            #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
-            let velocity = Position::new(self.axes[number].velocity as i64);
-            let measured = Input::Length(Quantity::Velocity, number, velocity);
+            let measured = self.axes[number].measured_velocity(number);
             let inputs = [measured, Input::Datum(datum, Some(number), bound), Input::None];
             let parent = self.axes[number].causes.movement();
             let event = self.log.note(Place::Axis(number), rule, inputs, parent);

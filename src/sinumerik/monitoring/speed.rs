@@ -32,23 +32,17 @@ impl State {
         let too_long = axis.monitor.limited_cycles > limits.speed_setpoint_cycles;
         // MD35100 limits a spindle, not MD36200.
         if velocity.abs() > set.velocity_limit && parameters.spindle.is_none() {
-            let measured = (Quantity::Velocity, velocity);
-            let inputs = velocities(number, measured, 36200, set.velocity_limit);
+            let limit = Input::Datum(36200, Some(number), parameters.entered_velocity(set.velocity_limit));
+            let inputs = [axis.measured_velocity(number), limit, Input::None];
             self.raise_monitoring(alarms::ACTUAL_VELOCITY, number, Rule::VelocityMonitoring, inputs);
         }
         if too_long {
-            let commanded = (Quantity::VelocityCommand, wanted);
-            let [commanded, ..] = velocities(number, commanded, 36210, limits.speed_setpoint_limit);
+            #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
+            let commanded = Input::Length(Quantity::VelocityCommand, number, Position::new(wanted as i64));
             // The datum is a percentage of the rated speed.
             let percent = Input::Datum(36210, Some(number), limits.speed_setpoint_percent);
             let inputs = [commanded, percent, Input::None];
             self.raise_monitoring(alarms::SPEED_SETPOINT, number, Rule::SpeedSetpointMonitoring, inputs);
         }
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "velocities for display; the cast saturates")]
-fn velocities(number: AxisNumber, (quantity, velocity): (Quantity, f64), datum: u32, limit: f64) -> [Input; 3] {
-    let measured = Input::Length(quantity, number, Position::new(velocity as i64));
-    [measured, Input::Datum(datum, Some(number), limit * 60.0 / Position::PER_USER_UNIT), Input::None]
 }

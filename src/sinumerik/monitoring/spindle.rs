@@ -17,7 +17,8 @@ impl State {
         if self.axes[number].velocity.abs() > CHUCK_SPEED * own.speed_limit {
             let limit = Input::Datum(35100, Some(number), own.speed_limit / REVOLUTION_PER_MINUTE);
             let inputs = [self.axes[number].measured_velocity(number), limit, Input::None];
-            self.raise_monitoring(alarms::CHUCK_SPEED, number, Rule::ChuckSpeedExceeded, inputs);
+            let alarm = self.axis_alarm(alarms::CHUCK_SPEED, number);
+            self.raise_new(alarm, Rule::ChuckSpeedExceeded, inputs, self.axes[number].causes.movement());
         }
     }
 }

@@ -49,7 +49,8 @@ impl State {
             let event =
                 self.log.note_one(Place::ModeGroup(group), Rule::ModeRefused, input, self.programs[channel].cause);
             let action = Parameter::Text(short_text("machine function REF"));
-            let shown = [Parameter::None, Parameter::Channel(channel), action, Parameter::None];
+            let shown =
+                [Parameter::Number(group.number().into()), Parameter::Channel(channel), action, Parameter::None];
             self.alarms.raise(alarms::MODE_NOT_ALLOWED, Place::ModeGroup(group), shown, event);
         }
         hindering.is_some()
@@ -98,7 +99,8 @@ impl State {
         let place = Place::ModeGroup(group);
         let event = self.log.note_one(place, Rule::ModeRefused, input, self.programs[channel].cause);
         let action = Parameter::Text(short_text("mode change"));
-        let shown = [Parameter::None, Parameter::Channel(channel), action, Parameter::None];
+        let shown =
+            [Parameter::Number(group.number().into()), Parameter::Channel(channel), action, Parameter::None];
         self.alarms.raise(alarms::MODE_ONLY_IN_RESET, place, shown, event);
     }
 

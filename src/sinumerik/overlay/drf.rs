@@ -61,13 +61,13 @@ impl State {
                 let signal = crate::image::axis_to_nck::invert_handwheel_direction_of_rotation;
                 axis_signal(number, signal, signals.invert_handwheel_direction_of_rotation())
             };
-            next.cause = self.log.note(
+            next.selected = self.log.note(
                 Place::Axis(number),
                 Rule::DrfSelected,
                 [drf, wheel, inversion],
                 self.mode_group(unit).mode_cause,
             );
-            (next.handwheels, next.inverted, next.selected) = (active, inverted, next.cause);
+            (next.handwheels, next.inverted) = (active, inverted);
         }
         let own = &parameters.axes[number];
         let requested = signals.requested_machine_functions();
@@ -116,7 +116,7 @@ impl State {
         if command != next.command {
             let rule = if command == 0 { Rule::DrfRests } else { Rule::DrfMoves };
             let wheel = active_handwheel(number, next.handwheels);
-            let parent = if turned.is_some() { turned } else { next.cause };
+            let parent = if turned.is_some() { turned } else { next.selected };
             for member in unit.members() {
                 let event = self.log.note_one(Place::Axis(member), rule, wheel, parent);
                 self.axes[member].overlay.cause = event;
@@ -128,9 +128,12 @@ impl State {
             let axis = &mut self.axes[member];
             let cause = if member == number { next.cause } else { axis.overlay.cause };
             // Only the leading axis has a handwheel.
-            let (handwheels, inverted) = if member == number { (next.handwheels, next.inverted) } else { (0, false) };
+            let (handwheels, inverted, selected) = match member == number {
+                true => (next.handwheels, next.inverted, next.selected),
+                false => (0, false, axis.overlay.selected),
+            };
             let by = next.setpoint.position - axis.overlay.setpoint.position;
-            axis.overlay = super::state::Overlay { cause, handwheels, inverted, ..next };
+            axis.overlay = super::state::Overlay { cause, handwheels, inverted, selected, ..next };
             if axis.measuring_system.is_some() {
                 axis.actual -= by;
                 axis.monitor.shift(Position::ZERO - by);

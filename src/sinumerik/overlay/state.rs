@@ -38,7 +38,7 @@ pub(in crate::sinumerik) struct Overlay {
     pub inverted: bool,
     /// The traverse command of its movement: +1, −1 or 0.
     pub command: i8,
-    /// The event behind handwheel and command.
+    /// The event behind the command.
     pub cause: EventId,
     /// The event behind the handwheel and its inversion alone.
     pub selected: EventId,

@@ -387,6 +387,18 @@ impl Reference {
 }
 
 impl AxisParameters {
+    /// A velocity in increments per second as values and machine data show it: mm/min, of a rotary axis rev/min.
+    #[must_use]
+    pub fn per_minute(&self, velocity: f64) -> f64 {
+        velocity * 60.0 / Position::PER_USER_UNIT / if self.rotary { 360.0 } else { 1.0 }
+    }
+
+    /// A velocity that a machine datum gave, as it was entered.
+    #[must_use]
+    pub(in crate::sinumerik) fn entered_velocity(&self, velocity: f64) -> f64 {
+        (self.per_minute(velocity) * 1e6).round() / 1e6
+    }
+
     /// The datum, and its value, with which a reference point approach on this encoder cannot end: a velocity of 0 (O-30), or MD34200.
     #[must_use]
     pub(in crate::sinumerik) fn approach_hindered_by(&self, encoder: usize) -> Option<(u32, f64)> {

@@ -158,15 +158,15 @@ impl SpindleParameters {
         factor(code, self.override_is_gray, &self.override_factors, self.override_limit)
     }
 
-    /// One cycle of an oscillation: its direction, and the cycles that are left in it (MD35440 clockwise, MD35450 counterclockwise). It begins when the
-    /// spindle stands.
+    /// One cycle of an oscillation: its direction, and the cycles that are left in it, this one included (MD35440 clockwise, MD35450
+    /// counterclockwise). It begins when the spindle stands.
     #[must_use]
     pub fn next_oscillation(&self, before: Option<(i8, u64)>, stands: bool) -> Option<(i8, u64)> {
         let begins = |direction: i8| (direction, self.oscillation_times[usize::from(direction < 0)]);
         match before {
             None => stands.then(|| begins(self.first_direction)),
-            Some((direction, 0)) => Some(begins(-direction)),
-            Some((direction, left)) => Some((direction, left - 1)),
+            Some((direction, left)) if left > 1 => Some((direction, left - 1)),
+            Some((direction, _)) => Some(begins(-direction)),
         }
     }
 

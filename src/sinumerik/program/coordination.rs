@@ -190,9 +190,12 @@ impl State {
             self.alarms.raise(number, Place::Channel(by), shown, event);
             return;
         }
-        let refuse = |state: &mut Self, number: AlarmNumber, second: &str| {
-            let second = if second.is_empty() { Parameter::None } else { Parameter::Text(short_text(second)) };
-            let shown = [Parameter::Channel(channel), second, Parameter::None, Parameter::None];
+        let refuse = |state: &mut Self, number: AlarmNumber, shown: &str| {
+            let name = Parameter::Text(short_text(shown));
+            // The name of a program is %3, as for NC start.
+            let [second, third] =
+                if number == alarms::NO_PROGRAM { [Parameter::None, name] } else { [name, Parameter::None] };
+            let shown = [Parameter::Channel(channel), second, third, Parameter::None];
             state.alarms.raise(number, Place::Channel(channel), shown, event);
         };
         let hindered = self.start_is_locked(channel, parameters);
@@ -214,7 +217,10 @@ impl State {
                     let started = self.log.note_one(Place::Channel(channel), Rule::StartedByProgram, active, event);
                     self.begin_program((channel, mode), &path, own, (parameters, to_nck), started);
                 }
-                None => refuse(self, alarms::NO_PROGRAM, ""),
+                None => {
+                    let name = self.programs[channel].selected.clone();
+                    refuse(self, alarms::NO_PROGRAM, name.as_deref().unwrap_or(alarms::NONE_SELECTED));
+                }
             }
         }
     }

@@ -19,6 +19,10 @@ impl State {
         if run.returning.is_some() {
             return false;
         }
+        // What START begins or refuses at the end of the cycle belongs to its block.
+        if !run.starts.is_empty() {
+            return false;
+        }
         if run.dwell > 0 {
             // Runs on with feed disable; NC stop holds it.
             run.dwell -= 1;

@@ -149,7 +149,9 @@ impl State {
                     BlockProgress::Waits => break,
                     BlockProgress::Ended => return false,
                 }
-                if !matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting) {
+                let runs = matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting);
+                // An alarm of the block stops the program in this block.
+                if !runs || self.stop(channel, stage.parameters).is_some() {
                     break;
                 }
             }

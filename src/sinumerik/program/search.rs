@@ -107,7 +107,10 @@ impl State {
             return refused(alarms::NOT_IN_PROGRAM_TEST);
         }
         let selected = program.selected.clone().unwrap_or_default();
-        let Some(found) = library.program(&selected) else { return Err((alarms::SEARCH_WITHOUT_PROGRAM, selected)) };
+        let Some(found) = library.program(&selected) else {
+            let shown = if selected.is_empty() { alarms::NONE_SELECTED } else { &selected };
+            return Err((alarms::SEARCH_WITHOUT_PROGRAM, shown.to_owned()));
+        };
         let Some(wanted) = BlockTarget::new(target) else {
             let is_number = target.trim_start().starts_with(['N', 'n', ':']);
             let number = if is_number { alarms::SEARCH_BLOCK_NUMBER } else { alarms::SEARCH_LABEL };

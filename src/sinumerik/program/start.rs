@@ -93,7 +93,8 @@ impl State {
     fn refuse_missing_program(&mut self, channel: ChannelNumber, pressed: Input) {
         let place = Place::Channel(channel);
         let event = self.log.note_one(place, Rule::NoProgramSelected, pressed, EventId::NONE);
-        let name = Parameter::Text(short_text(self.programs[channel].selected.as_deref().unwrap_or("")));
+        let name = self.programs[channel].selected.as_deref().unwrap_or(alarms::NONE_SELECTED);
+        let name = Parameter::Text(short_text(name));
         let shown = [Parameter::Channel(channel), Parameter::None, name, Parameter::None];
         self.alarms.raise(alarms::NO_PROGRAM, place, shown, event);
     }

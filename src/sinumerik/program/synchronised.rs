@@ -21,7 +21,7 @@ use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::{Order, OrderedBy};
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, Input, Parameter, Place, Quantity};
+use crate::variables::{AlarmNumber, Input, Parameter, Place, Quantity, short_text};
 
 /// What an action does in this cycle.
 enum Effect {
@@ -40,8 +40,8 @@ enum Effect {
     SetMarks(Vec<u16>),
     ClearMarks(Vec<u16>),
     ReadInDisable,
-    /// An error of an expression.
-    Failed(u32),
+    /// An error of an expression of the action with this ID.
+    Failed(u32, Option<i32>),
 }
 
 impl State {
@@ -105,7 +105,7 @@ impl State {
                 Ok(true) => one.effects(&mut environment, &mut effects),
                 Err(number) => {
                     one.is_over = true;
-                    effects.push(Effect::Failed(number));
+                    effects.push(Effect::Failed(number, one.action.id));
                 }
             }
         }
@@ -133,7 +133,12 @@ impl State {
             Effect::SetMarks(marks) => self.programs[channel].set_marks(&marks),
             Effect::ClearMarks(marks) => self.programs[channel].clear_marks(&marks),
             Effect::ReadInDisable => run.read_in_disabled = true,
-            Effect::Failed(number) => self.raise_of_action(AlarmNumber(number), [Parameter::None; 3], run, stage),
+            Effect::Failed(number, id) => {
+                let running = run.queue.front().map(|block| block.origin.name.as_str()).unwrap_or_default();
+                let block = id.map_or_else(|| running.to_owned(), |id| format!("ID={id}"));
+                let shown = [Parameter::Text(short_text(&block)), Parameter::None, Parameter::None];
+                self.raise_of_action(AlarmNumber(number), shown, run, stage);
+            }
         }
     }
 
@@ -239,7 +244,7 @@ impl State {
         if !is_command {
             self.hand_over(&unit, stage.channel, Rule::TakenByAction, inputs, run.block_cause, stage.parameters);
         }
-        let cause = self.log.note(Place::Axis(axis), Rule::OrderStarted, inputs, run.block_cause);
+        let cause = self.log.note(Place::Axis(axis), Rule::ActionStarts, inputs, run.block_cause);
         let order =
             Order { target, velocity, by: OrderedBy::Action, cause, by_handwheel: false, begun: false, ending: None };
         self.begin_order(axis, order);
@@ -320,7 +325,7 @@ impl ActiveAction {
                 Ok(effect) => effects.extend(effect),
                 Err(number) => {
                     self.is_over = true;
-                    effects.push(Effect::Failed(number));
+                    effects.push(Effect::Failed(number, self.action.id));
                 }
             }
         }

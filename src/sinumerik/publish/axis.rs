@@ -53,12 +53,8 @@ impl State {
             if axis.outputs_setpoints() {
                 return self.why_in_motion(number, Rule::SetpointsOutput, all);
             }
-            #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
-            let velocity = Position::new(axis.velocity as i64);
-            let measured = Input::Length(Quantity::Velocity, number, velocity);
-            let limit = parameters.standstill_velocity * 60.0 / Position::PER_USER_UNIT;
-            let limit = Input::Datum(36060, Some(number), limit);
-            Why::Tested(Rule::Standstill, [measured, limit, Input::None], causes.movement())
+            let limit = Input::Datum(36060, Some(number), parameters.entered_velocity(parameters.standstill_velocity));
+            Why::Tested(Rule::Standstill, [axis.measured_velocity(number), limit, Input::None], causes.movement())
         });
     }
 
@@ -152,7 +148,8 @@ impl State {
             Why::Event(axis.signals.fast_stop_cause)
         });
         rows.bit(axis_from_nck::holding_brake_open, axis.brake == Brake::Open, || {
-            Why::Tested(Rule::BrakeReached, [Input::None; 3], causes.brake)
+            let rule = if axis.brake == Brake::Open { Rule::BrakeIsOpen } else { Rule::BrakeLeavesOpen };
+            Why::Tested(rule, [Input::None; 3], causes.brake)
         });
         rows.number(axis_from_nck::active_drive_data_set, axis.drive_data_set, || Why::Event(causes.drive_data_set));
         rows.bit(axis_from_nck::drive_ready, axis.drive_ready, drive);

@@ -175,7 +175,6 @@ impl State {
 
     fn values(&self, number: AxisNumber, parameters: &AxisParameters, all: &Parameters) -> AxisValues {
         let axis = &self.axes[number];
-        let per_user_unit = if parameters.rotary { 360.0 } else { 1.0 };
         let drf = axis.overlay.position();
         let encoders = std::array::from_fn(|encoder| {
             if encoder < usize::from(parameters.encoders) {
@@ -194,7 +193,7 @@ impl State {
             // During axis disable the displayed value follows the setpoint (SIG-03).
             position: drf + if axis.signals.disabled_at().is_some() { axis.setpoint.position } else { axis.actual },
             setpoint: axis.machine_setpoint(),
-            velocity: axis.velocity * 60.0 / Position::PER_USER_UNIT / per_user_unit,
+            velocity: parameters.per_minute(axis.velocity),
             following_error: axis.deviation(),
             slide: axis.slide,
             synchronism_difference: Position::ZERO,

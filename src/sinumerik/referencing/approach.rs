@@ -297,10 +297,8 @@ impl Approach {
         if self.waited <= view.parameters.standstill_cycles {
             return Outcome::Running;
         }
-        #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
-        let velocity = Position::new(view.axis.velocity as i64);
-        let measured = Input::Length(Quantity::Velocity, view.number, velocity);
-        let limit = view.parameters.standstill_velocity * 60.0 / Position::PER_USER_UNIT;
+        let measured = view.axis.measured_velocity(view.number);
+        let limit = view.parameters.entered_velocity(view.parameters.standstill_velocity);
         let inputs = [measured, Input::Datum(36060, Some(view.number), limit), Input::None];
         self.fail(log, view, alarms::APPROACH_ABORTED, inputs)
     }

@@ -331,7 +331,7 @@ impl State {
         let cam = axis_to_nck::deceleration_reference_point_approach;
         let cam = axis_signal(number, cam, signals.deceleration_reference_point_approach());
         let (begun, begins) = (approach.cause(), (Rule::ApproachStarted, cam));
-        self.travel_on(number, travel, begun, begins, approach.target);
+        self.travel_on(number, travel, begun, begins, (Rule::ApproachTargetReached, approach.target));
         outcome
     }
 

@@ -123,7 +123,7 @@ impl State {
             self.travel(axis, Travel::None, cause);
             let moves = unit.members().any(|member| self.axes[member].enabling.moves());
             if rests || !moves {
-                let event = self.log.now(Place::Axis(axis), cause, Rule::OrderEnds, [Input::None; 3]);
+                let event = self.log.now(Place::Axis(axis), cause, order.by.ends(), [Input::None; 3]);
                 self.end_order(axis, outcome, event);
             }
             return;
@@ -132,7 +132,7 @@ impl State {
         let fine = state.active_set(&parameters.axes[axis]).exact_stop_fine;
         if is_on && rests && state.setpoint.position == order.target && state.deviation().abs() <= fine {
             let reached = [Input::Length(Quantity::Target, axis, order.target), Input::None, Input::None];
-            let event = self.log.note(Place::Axis(axis), Rule::OrderReached, reached, order.cause);
+            let event = self.log.note(Place::Axis(axis), order.by.reached(), reached, order.cause);
             self.travel(axis, Travel::None, event);
             self.end_order(axis, Outcome::Reached, event);
             return;
@@ -154,7 +154,7 @@ impl State {
         let sign = direction(order.target - self.axes[axis].setpoint.position);
         let travel = if held.is_some() { Travel::waiting(sign) } else { Travel::moving(sign) };
         if self.axes[axis].travel != travel {
-            let rule = if travel == Travel::None { Rule::TargetReached } else { Rule::OrderMoves };
+            let rule = if travel == Travel::None { order.by.at_target() } else { order.by.moves() };
             let (rule, input) = held.unwrap_or((rule, Input::Length(Quantity::Target, axis, order.target)));
             let event = self.log.now(Place::Axis(axis), order.cause, rule, [input, Input::None, Input::None]);
             self.travel(axis, travel, event);

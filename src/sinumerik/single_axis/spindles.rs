@@ -213,7 +213,7 @@ impl State {
         if !goes_on {
             let missing = self.alarms.is_pending(SPINDLE_MARK_MISSING, place);
             let error = if missing { 107 } else { 115 };
-            let event = self.log.note_plain(place, Rule::SpindleOrderEnds, spindle.cause);
+            let event = self.log.now(place, spindle.cause, Rule::SpindleOrderEnds, [Input::None; 3]);
             self.end_spindle_order(axis, Outcome::Failed(error), event);
         } else if order == SpindleOrder::Position && is_there {
             let event = self.log.note_plain(place, Rule::SpindleOrderReached, spindle.position_cause);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::image::{AxisToNck, Signal, axis_to_nck};
+use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position};
 use crate::variables::{AlarmNumber, EventId};
 
@@ -13,6 +14,40 @@ pub(in crate::sinumerik) enum OrderedBy {
     Plc,
     /// A synchronised action.
     Action,
+}
+
+impl OrderedBy {
+    /// The rule of a movement that begins.
+    pub(super) const fn moves(self) -> Rule {
+        match self {
+            Self::Plc => Rule::OrderMoves,
+            Self::Action => Rule::ActionMoves,
+        }
+    }
+
+    /// The rule of a setpoint at the target.
+    pub(super) const fn at_target(self) -> Rule {
+        match self {
+            Self::Plc => Rule::OrderTargetReached,
+            Self::Action => Rule::ActionTargetReached,
+        }
+    }
+
+    /// The rule of an axis in position.
+    pub(super) const fn reached(self) -> Rule {
+        match self {
+            Self::Plc => Rule::OrderReached,
+            Self::Action => Rule::ActionReached,
+        }
+    }
+
+    /// The rule of an axis at rest before its target.
+    pub(super) const fn ends(self) -> Rule {
+        match self {
+            Self::Plc => Rule::OrderEnds,
+            Self::Action => Rule::ActionEnds,
+        }
+    }
 }
 
 /// A movement to a target.

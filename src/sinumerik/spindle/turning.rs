@@ -164,7 +164,7 @@ impl State {
                 (Rule::SpindleInverted, inverts)
             }
             None if travel == Travel::None => match before.target() {
-                Some(target) => (Rule::TargetReached, Input::Length(Quantity::Target, number, target)),
+                Some(target) => (Rule::SpindleTargetReached, Input::Length(Quantity::Target, number, target)),
                 None => (Rule::SpindleReleased, Input::None),
             },
             None => (Rule::SpindleReleased, released(before.holder, number, signals)),

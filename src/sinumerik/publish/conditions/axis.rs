@@ -9,7 +9,7 @@ use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::state::Unit;
-use crate::units::{AxisNumber, Position};
+use crate::units::AxisNumber;
 use crate::variables::{Place, six_decimals};
 
 /// The signals.
@@ -179,11 +179,10 @@ impl Look<'_> {
 
     fn slow(self, number: AxisNumber) -> Condition {
         let (axis, parameters) = (&self.state.axes[number], &self.parameters.axes[number]);
-        let per_user_unit = 60.0 / Position::PER_USER_UNIT;
         let what = format!("velocity of {}", self.axis_name(number));
-        let wanted = format!("below {} (MD36060)", six_decimals(parameters.standstill_velocity * per_user_unit));
+        let wanted = format!("below {} (MD36060)", six_decimals(parameters.per_minute(parameters.standstill_velocity)));
         let holds = axis.velocity.abs() < parameters.standstill_velocity;
-        Fact::new(what, six_decimals(axis.velocity.abs() * per_user_unit), wanted, holds).into()
+        Fact::new(what, six_decimals(parameters.per_minute(axis.velocity.abs())), wanted, holds).into()
     }
 
     fn shown_alarm(self, axis: AxisNumber) -> Condition {
