@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use opennck::nc_program::{
     AxisNames, CheckFinding, Dialect, Environment, Interpreter, Library, Modal, Prepared, Program, ProgramAlarm,
-    Refusal, Request, SINUMERIK, SystemVariable, Value, check,
+    Request, SINUMERIK, SystemVariable, Value, VariableRefusal, check,
 };
 
 /// A channel that executes everything at once.
@@ -40,16 +40,16 @@ impl Environment for Channel {
         self.r[index as usize] = value;
     }
 
-    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, Refusal> {
+    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, VariableRefusal> {
         match variable.name {
             "$AA_IM" => Ok(Value::Real(1.5)),
             "$P_PROG" => Ok(Value::Text("PART".to_owned())),
-            _ => Err(Refusal::Unknown),
+            _ => Err(VariableRefusal::Unknown),
         }
     }
 
-    fn set_system(&mut self, _: &SystemVariable<'_>, _: &Value) -> Result<(), Refusal> {
-        Err(Refusal::WriteProtected)
+    fn set_system(&mut self, _: &SystemVariable<'_>, _: &Value) -> Result<(), VariableRefusal> {
+        Err(VariableRefusal::WriteProtected)
     }
 
     fn is_executed(&self) -> bool {
