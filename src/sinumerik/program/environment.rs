@@ -385,7 +385,12 @@ impl Environment for Channel<'_> {
         }
         let Some(target) = self.datum(variable) else {
             let known = is_of_the_control(variable.name);
-            return Err(if known { Refusal::NotModelled } else { Refusal::Unknown });
+            let is_readable = self.system(variable).is_ok();
+            return Err(match (is_readable, known) {
+                (true, _) => Refusal::WriteProtected,
+                (false, true) => Refusal::NotModelled,
+                (false, false) => Refusal::Unknown,
+            });
         };
         let target = target?;
         let value = match value {
