@@ -314,6 +314,9 @@ impl<'a> Parser<'a> {
             if let Some(what) = self.dialect.refused(name) {
                 return Err(Fault::refused(at, what));
             }
+            if matches!(name, "AC" | "IC" | "DC" | "ACP" | "ACN" | "QU") {
+                return Err(Fault::new(12020, at, "only the value of an address has one"));
+            }
             return Err(Fault::new(12550, at, "there is no function of this name"));
         }
         if let Some(axis) = self.axes.find(name) {

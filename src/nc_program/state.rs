@@ -135,6 +135,11 @@ impl Interpreter {
         self.modal
     }
 
+    /// A path feedrate for a program that has none yet.
+    pub fn assume_feed(&mut self, feed: Option<f64>) {
+        self.feed = self.feed.or(feed);
+    }
+
     /// The path feedrate after the last prepared block.
     #[must_use]
     pub fn feed(&self) -> Option<f64> {

@@ -68,6 +68,7 @@ rules! {
     // Limits.
     HardwareLimitSwitch "MON-14" "hardware limit switch";
     SoftwareLimit "MON-13" "on the software limit switch";
+    WorkingArea "MON-12" "on the limit of the working area";
     // What stops and holds movements.
     DatumNotAllowed "O-30" "the axis cannot move with this value";
     StoppedByAlarm "ALARM" "an alarm stops the movement";
@@ -358,6 +359,8 @@ rules! {
     AlarmDropped "ALARM" "an alarm found no place in the alarm list";
     OnSoftwareLimit "10621" "at rest on the software limit switch or beyond it";
     OffSoftwareLimit "10621" "no longer at rest on the software limit switch or beyond it";
+    OnWorkingArea "10631" "at rest on the limit of the working area or beyond it";
+    OffWorkingArea "10631" "no longer at rest on the limit of the working area or beyond it";
     KeyMeetsHandwheel "20050" "a traversing key is pressed while a handwheel moves the axis";
     KeyMeetsNoHandwheel "20050" "no traversing key is pressed while a handwheel moves the axis";
     HandwheelMeetsKey "20051" "a handwheel is turned while a traversing key moves the axis";

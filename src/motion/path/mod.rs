@@ -269,6 +269,29 @@ impl Path {
         self.blocks.front().map_or_else(PerPathAxis::default, |planned| planned.block.way.direction_at(self.distance))
     }
 
+    /// Where the path passes if it begins to brake in the next cycle: a few places up to standstill, in order. `cycle` is in seconds.
+    #[must_use]
+    pub fn while_braking(&self, cycle: f64) -> [PerPathAxis; 8] {
+        let accelerations = self.blocks.iter().map(|planned| planned.acceleration);
+        let slowest = accelerations.fold(f64::INFINITY, f64::min);
+        let velocity = self.velocity + self.blocks.front().map_or(0.0, |first| first.acceleration) * cycle;
+        let way = if slowest.is_finite() { velocity * (velocity / (2.0 * slowest) + 1.5 * cycle) } else { 0.0 };
+        std::array::from_fn(|index| self.place_ahead(way * (index + 1) as f64 / 8.0))
+    }
+
+    /// The place on the known blocks after a distance, no farther than the next standstill.
+    fn place_ahead(&self, way: f64) -> PerPathAxis {
+        let (mut ahead, mut place) = (self.distance + way, self.position);
+        for planned in &self.blocks {
+            place = planned.block.way.at(ahead);
+            ahead -= planned.block.way.length();
+            if ahead <= 0.0 || planned.stops() {
+                break;
+            }
+        }
+        place
+    }
+
     /// Drops all blocks; the position stays. To brake first, call [`Path::step`] with overrides of 0 until the velocity is 0.
     pub fn clear(&mut self) {
         self.blocks.clear();

@@ -204,9 +204,19 @@ alarms! {
     /// NC start in AUTOMATIC or MDI while an axis that needs its reference point is not referenced (MD20700).
     START_WITHOUT_REFERENCE 10203 [INTERFACE_SIGNALS DISPLAY] NcStart
         "channel %1 NC start without reference point";
+    /// A movement has to stop before a software limit switch: by 12.2, 12.3, an offset of a handwheel or a machine datum that came after the
+    /// preparation of its block, or as a movement to a target. %3: the block, %4: + or −.
+    REACHES_SOFTWARE_LIMIT 10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset
+        "channel %1 block %3 axis %2 reaches software limit switch %4";
     /// JOG: the axis rests on a software limit switch. %3: + or −.
     ON_SOFTWARE_LIMIT 10621 [DISPLAY] ByItself
         "channel %1 axis %2 rests on software limit switch %3";
+    /// A movement has to stop before the limit of the working area. %2: the block, %4: + or −.
+    REACHES_WORKING_AREA 10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset
+        "channel %1 block %2 axis %3 reaches working area limit %4";
+    /// JOG: the axis rests on the limit of its working area. %3: + or −.
+    ON_WORKING_AREA 10631 [DISPLAY] ByItself
+        "channel %1 axis %2 rests on working area limit %3";
     /// Wrong gantry machine data. Code 1: wrong grouping number or designation; 2: leading axis declared more than once.
     GANTRY_MACHINE_DATA 10650
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn

@@ -4,7 +4,7 @@
 //! | numbers | not modelled |
 //! |---|---|
 //! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
-//! | 10620, 10630, 10631, 10721, 10723, 16xxx, 17630 to 17900 | limits in motion, actions of the operator |
+//! | 10721, 10723, 16xxx, 17630 to 17900 | limits in motion, actions of the operator |
 //! | 20007, 20008, 22062, 22064 | MD34200 = 6 and 7 |
 //! | 20052, 20060, 20062 | geometry axes |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
@@ -36,9 +36,6 @@ alarms! {
     4113 [DISPLAY] Reset "system clock cycle changed to %1 ms";
     4200 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 geometry axis %2 must not be a rotary axis";
     4210 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 spindle %2: declaration as rotary axis is missing";
-    10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %3 axis %2 reaches software limit switch %4";
-    10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %2 axis %3 reaches working area limit %4";
-    10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";
     10721 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10723 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";
     16772 [DISPLAY] ByItself "channel %1 block %2 axis %3 is a following axis, the coupling is opened";

@@ -154,7 +154,8 @@ impl State {
             let unit = self.units[index];
             let conditions = self.conditions(&unit, parameters, to_nck);
             let lost = !conditions.enable || !conditions.healthy;
-            if lost && conditions.moving && self.unit_is_on(&unit) {
+            let moving = conditions.moving || lost && self.belongs_to_moving_path(&unit, parameters);
+            if lost && moving && self.unit_is_on(&unit) {
                 let (axis, cause) = conditions.culprit;
                 let event =
                     self.log.note_one(Place::Axis(axis), Rule::EnableLostInMotion, conditions.missing.1, EventId::NONE);

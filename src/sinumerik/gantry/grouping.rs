@@ -77,7 +77,7 @@ impl State {
             Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
         }
         let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupling.is_closed();
-        if idle && self.follow_program(unit, parameters) {
+        if idle && self.follow_program(unit, parameters, to_nck) {
             self.watch_software_limits(unit, parameters, to_nck);
         } else if idle && self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);

@@ -128,7 +128,9 @@ impl State {
             let ahead = self.software_limit_ahead(number, direction, parameters, to_nck);
             if direction != 0 && ahead == Ahead::Reached && !matches!(movement, Movement::Pending(..)) {
                 let reached = Input::Length(Quantity::Setpoint, number, axis.machine_setpoint());
-                self.block_jogging(number, parameters, signals, Rule::SoftwareLimit, reached, axis.causes.motion);
+                let barrier = self.barrier(unit, direction, parameters, to_nck);
+                let rule = barrier.map_or(Rule::SoftwareLimit, |barrier| barrier.rule());
+                self.block_jogging(number, parameters, signals, rule, reached, axis.causes.motion);
                 return;
             }
             self.axes[number].follow_keys(direction, velocity, ahead, axis_parameters.jog_acceleration);

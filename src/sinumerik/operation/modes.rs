@@ -99,8 +99,7 @@ impl State {
         let place = Place::ModeGroup(group);
         let event = self.log.note_one(place, Rule::ModeRefused, input, self.programs[channel].cause);
         let action = Parameter::Text(short_text("mode change"));
-        let shown =
-            [Parameter::Number(group.number().into()), Parameter::Channel(channel), action, Parameter::None];
+        let shown = [Parameter::Number(group.number().into()), Parameter::Channel(channel), action, Parameter::None];
         self.alarms.raise(alarms::MODE_ONLY_IN_RESET, place, shown, event);
     }
 

@@ -44,7 +44,8 @@ impl State {
                         .extend(stage.own.spindle(spindle.unwrap_or(0)).map(|axis| (is_upper, axis, limit)));
                 }
             }
-            Action::NewConfiguration => run.new_conf = true,
+            // The data are active from the next cycle on.
+            Action::NewConfiguration => (run.new_conf, run.pauses) = (true, true),
             Action::Synchronised(action) => self.begin_action(*action, run, stage),
             Action::Cancel(ids) => self.cancel_actions(&ids, stage),
             Action::CycleAlarm { number, text } => {

@@ -116,6 +116,7 @@ impl State {
         let input = Input::Block(block_name(&block.origin.name));
         if let Some(alarm) = run.cycle_alarm.take() {
             self.raise_block_alarm(alarm, run, stage);
+            run.alarm_origin = Some(block.origin);
             return BlockProgress::Changed;
         }
         if block.end == Some(End::Program) && run.search.is_some() {

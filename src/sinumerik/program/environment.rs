@@ -403,7 +403,12 @@ impl Environment for Channel<'_> {
         }
         let Some(target) = self.datum(variable) else {
             let known = is_of_the_control(variable.name);
-            return Err(if known { VariableRefusal::NotModelled } else { VariableRefusal::Unknown });
+            let is_readable = self.system(variable).is_ok();
+            return Err(match (is_readable, known) {
+                (true, _) => VariableRefusal::WriteProtected,
+                (false, true) => VariableRefusal::NotModelled,
+                (false, false) => VariableRefusal::Unknown,
+            });
         };
         let target = target?;
         let value = match value {

@@ -116,9 +116,11 @@ impl State {
         }
         self.take_program_control(run, stage);
         self.delete_distance_to_go_of_path(run, stage);
+        self.delete_distance_to_go_of_axes(run, stage);
         self.run_actions(run, stage, sources);
         if runs && run.stopping.is_none() {
             self.hold_block_change(run, stage);
+            self.watch_limits_ahead(run, stage);
         }
         let ended = self.move_program(run, stage);
         self.take_command_axes(run, stage);
@@ -185,6 +187,15 @@ impl State {
                 block.way = None;
             }
         }
+    }
+
+    /// DB31.DBX2.2: an axis that POS, POSA or a synchronised action positions brakes and drops the rest of its way.
+    fn delete_distance_to_go_of_axes(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let path = stage.own.axes.path.iter().copied();
+        let now: AxisSet = path.filter(|axis| stage.to_nck.axes[*axis].delete_distance_to_go_spindle_reset()).collect();
+        let rising = now.without(std::mem::replace(&mut run.axial_delete_were, now));
+        let positioned = run.positionings.iter().filter(|one| !one.is_rapid).map(|one| one.axis).collect();
+        run.axial_deleting = run.axial_deleting.with(rising).and(positioned);
     }
 
     /// Whether something holds the change to the next block: read-in disable, also by RDISABLE, single block, NC stop at the block limit.
@@ -256,6 +267,7 @@ impl State {
 
     /// A block begins to run: it is displayed.
     fn begin_block(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        run.alarm_origin = None;
         let Some(block) = run.queue.front() else { return };
         let input = Input::Block(block_name(&block.origin.name));
         let program = &self.programs[stage.channel];

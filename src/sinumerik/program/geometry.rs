@@ -23,10 +23,15 @@ pub(in crate::sinumerik) fn is_exact_stop(block: &Block) -> bool {
     block.once.contains(&g::G9) || block.modal.is(g::G60)
 }
 
-/// The path feed in increments per second. G70 and G71 leave feeds in the basic system, G700 and G710 do not.
-pub(in crate::sinumerik) fn feed(per_minute: f64, block: &Block, basic_is_inch: bool) -> f64 {
+/// The unit of feeds in millimetres. G70 and G71 leave feeds in the basic system, G700 and G710 do not.
+pub(in crate::sinumerik) fn feed_unit(block: &Block, basic_is_inch: bool) -> f64 {
     let inch = block.modal.is(g::G700) || basic_is_inch && !block.modal.is(g::G710);
-    per_minute * if inch { INCH } else { 1.0 } * Position::PER_USER_UNIT / 60.0
+    if inch { INCH } else { 1.0 }
+}
+
+/// The path feed in increments per second.
+pub(in crate::sinumerik) fn feed(per_minute: f64, block: &Block, basic_is_inch: bool) -> f64 {
+    per_minute * feed_unit(block, basic_is_inch) * Position::PER_USER_UNIT / 60.0
 }
 
 /// G95: the feed is in mm per revolution of the master spindle.

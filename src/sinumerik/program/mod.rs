@@ -25,6 +25,7 @@
 //! | `synchronised.rs` | synchronised actions |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
+//! | `limits_ahead.rs` | limits that the path would pass, by what came after the preparation of its blocks |
 //! | `positioning.rs`, `own_ways.rs` | axes on their own ways: POS and POSA, rapid traverse with MD20730 = 0 |
 //! | `referencing.rs` | G74 |
 //! | `refused.rs` | couplings and spindles that the channel does not have |
@@ -50,6 +51,7 @@ pub(super) mod environment;
 pub(super) mod executable;
 pub(super) mod execution;
 pub(super) mod geometry;
+pub(super) mod limits_ahead;
 pub(super) mod main_run;
 pub(super) mod outputs;
 pub(super) mod own_ways;

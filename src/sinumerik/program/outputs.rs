@@ -183,7 +183,10 @@ pub(super) fn entry(function: &AuxiliaryFunction, place: u8, own: &ProgramParame
     let concerns = concerns_spindle(function);
     // An omitted extension is the master spindle, if the channel has one.
     let omitted = if concerns { own.master_spindle.into() } else { 0 };
-    let extension = function.extension.unwrap_or(omitted);
+    // F: 0 is the feed of the path, otherwise the number of the positioning axis.
+    let machine_axis = function.axis.and_then(|name| own.axes.machine_axes.get(usize::from(name.0)));
+    let of_axis = machine_axis.map(|axis| u16::from(axis.number()));
+    let extension = of_axis.or(function.extension).unwrap_or(omitted);
     let master = own.master_spindle.max(u8::from(own.spindles.is_empty()));
     Entry {
         kind: function.kind,

@@ -68,11 +68,24 @@ impl State {
         }
         let path = run.returning.as_ref().unwrap_or(&run.path);
         let direction = path.direction();
+        let moves = |place: usize| direction[place].abs() >= 1e-12;
+        let geometry = &stage.own.axes.geometry;
+        let tested = self.programs[stage.channel].test.axes;
+        // 21612: a geometry axis moves only while all geometry axes have their enables.
+        let with_all = geometry.iter().flatten().any(|place| moves(*place));
         for (place, &axis) in stage.own.axes.path.iter().enumerate() {
-            if direction[place].abs() < 1e-12 || !self.owners.is_program_axis(axis, stage.channel) {
+            let needs_enable = moves(place) || with_all && geometry.contains(&Some(place)) && !tested.contains(axis);
+            if !needs_enable || !self.owners.is_program_axis(axis, stage.channel) {
                 continue;
             }
             let Some(unit) = self.unit_of(axis) else { continue };
+            if !moves(place) {
+                if let Some(off) = unit.members().find(|member| !self.axes[*member].enabling.is_on()) {
+                    let control = crate::image::axis_from_nck::position_controller_active;
+                    return Held::By(Rule::MotionBlocked, axis_signal(off, control, false));
+                }
+                continue;
+            }
             if let Some(stopper) = unit.members().find(|member| stage.to_nck.axes[*member].feed_stop()) {
                 return Held::By(Rule::HeldByFeedStop, axis_signal(stopper, axis_to_nck::feed_stop, true));
             }
@@ -90,6 +103,19 @@ impl State {
             }
         }
         Held::No
+    }
+
+    /// Whether a unit is led by a geometry axis while the path of its channel moves geometry axes.
+    pub(in crate::sinumerik) fn belongs_to_moving_path(&self, unit: &Unit, parameters: &Parameters) -> bool {
+        let own = parameters.programs[unit.channel].as_deref();
+        let run = self.programs[unit.channel].run.as_deref();
+        let (Some(own), Some(run)) = (own, run) else { return false };
+        let direction = run.path.direction();
+        let moves = own.axes.geometry.iter().flatten().any(|place| direction[*place].abs() >= 1e-12);
+        let leader = unit.leader();
+        let is_geometry = own.axes.geometry.iter().flatten().any(|place| own.axes.path[*place] == leader);
+        let is_own = self.owners.is_program_axis(leader, unit.channel) && !run.leaves_alone(leader);
+        run.path.velocity() > 0.0 && moves && is_geometry && is_own
     }
 
     /// The unit that an axis leads.
@@ -325,6 +351,18 @@ impl State {
             let unit = self.unit_of(axis);
             let arrived = state.setpoint.position == target && state.setpoint.is_at_rest();
             let in_position = state.deviation().abs() <= state.active_set(&stage.parameters.axes[axis]).exact_stop_fine;
+            let deletes = run.axial_deleting.contains(axis);
+            if deletes && state.setpoint.is_at_rest() {
+                // What is prepared behind it begins where the axis is now, as behind a synchronised action.
+                run.positionings.remove(index);
+                run.axial_deleting.set(axis, false);
+                run.commanded.set(axis, true);
+                run.commanded_arrived = true;
+                let delete = axis_signal(axis, axis_to_nck::delete_distance_to_go_spindle_reset, true);
+                let cause = self.log.note_one(Place::Axis(axis), Rule::DistanceDeleted, delete, run.block_cause);
+                self.travel(axis, Travel::None, cause);
+                continue;
+            }
             if arrived && in_position {
                 run.positionings.remove(index);
                 run.commanded_arrived |= run.commanded.contains(axis);
@@ -369,7 +407,8 @@ impl State {
                     (self.place_by_handwheel(axis, target), 0.0)
                 }
             };
-            let velocity = if held == Held::No { (velocity * factor + added).max(0.0) } else { 0.0 };
+            let moves = held == Held::No && !deletes;
+            let velocity = if moves { (velocity * factor + added).max(0.0) } else { 0.0 };
             let velocity = velocity.min(stage.parameters.axes[axis].maximum_velocity);
             self.led[axis] = Some(Led::Target { target: place, velocity });
             let here = self.axes[axis].setpoint.position;
@@ -394,7 +433,12 @@ impl State {
     }
 
     /// A unit that a program leads in this cycle takes its movement over. Returns whether one does.
-    pub(in crate::sinumerik) fn follow_program(&mut self, unit: &Unit, parameters: &Parameters) -> bool {
+    pub(in crate::sinumerik) fn follow_program(
+        &mut self,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> bool {
         let leader = unit.leader();
         let Some(led) = self.led[leader].take() else { return false };
         let direction = match led {
@@ -411,7 +455,10 @@ impl State {
             Led::Path { position, velocity } => crate::motion::Motion::Interpolated { position, velocity },
             Led::Target { target, velocity } => {
                 let acceleration = parameters.axes[leader].maximum_acceleration;
-                crate::motion::Motion::GoTo { target, velocity, acceleration }
+                match self.before_limit(unit, (target, velocity > 0.0), parameters, to_nck) {
+                    Some(target) => crate::motion::Motion::GoTo { target, velocity, acceleration },
+                    None => crate::motion::Motion::Brake { deceleration: acceleration },
+                }
             }
         };
         true

@@ -87,6 +87,10 @@ impl Run {
             channel.take_run(self);
             let written = channel.written.len() + channel.tables.len();
             let next = self.executed + self.queue.len() as u64;
+            if self.interpreter.modal().agrees(&preparing.own.modal, groups::FEED) {
+                // SD42110 takes effect at once.
+                self.interpreter.assume_feed(preparing.own.initial_feed());
+            }
             let before = self.interpreter.clone();
             let prepared = self.interpreter.step(channel);
             self.r_log.extend(channel.r_written.drain(..).map(|(index, before)| (next, index, before)));
@@ -194,7 +198,8 @@ impl Run {
             Availability::All | Availability::Claims(_) | Availability::Refused(_) => {}
         }
         // Blocks behind it may find other axes, or find them elsewhere.
-        let waits = exchanges(&read.block) || preparing.own.waits_behind(&read.block);
+        let activates = read.block.actions.iter().any(|action| matches!(action, Action::NewConfiguration));
+        let waits = exchanges(&read.block) || preparing.own.waits_behind(&read.block) || activates;
         self.holds_preparation = waits && !calculates;
         let (mut end, offsets) = (self.end, self.offsets);
         match preparing.executable(&read.block, self, &mut end, channel) {
@@ -322,8 +327,10 @@ impl Preparing<'_> {
                 }
                 Action::AxisFeed(name, feed) => {
                     let (axis, _) = self.path_axis(block, *name)?;
+                    let is_rotary = self.parameters.axes[axis].rotary;
+                    let unit = if is_rotary { 1.0 } else { geometry::feed_unit(block, self.parameters.is_inch) };
                     run.axis_feeds.retain(|(of, _)| *of != axis);
-                    run.axis_feeds.push((axis, *feed));
+                    run.axis_feeds.push((axis, feed * unit));
                 }
                 Action::Reference(names) => {
                     for name in names {

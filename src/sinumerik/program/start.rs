@@ -231,9 +231,12 @@ impl State {
             stopping: None,
             resetting: None,
             delete_was: false,
+            axial_delete_were: AxisSet::NONE,
+            axial_deleting: AxisSet::NONE,
             deleting: false,
             reads_again: false,
             new_conf: false,
+            alarm_origin: None,
             cycle_alarm: None,
             pauses: false,
             again: VecDeque::new(),
@@ -331,6 +334,10 @@ impl State {
         if let Some(stop) = self.stop(channel, parameters) {
             let (rule, input) = stop.tested();
             return Some(self.log.now(place, stop.cause(), rule, [input, Input::None, Input::None]));
+        }
+        if let Some((alarm, cause)) = self.stopped_at_limit(channel) {
+            let inputs = [alarm, Input::None, Input::None];
+            return Some(self.log.now(place, cause, Rule::StoppedByAlarm, inputs));
         }
         let signals = &to_nck.channels[channel];
         let pressed = [

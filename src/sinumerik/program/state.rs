@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::SearchKind;
 use crate::motion::path::{PATH_AXES, Path, PathLimits, PerPathAxis};
-use crate::nc_program::{AxisIndex, Interpreter, Modal, ProgramAlarm, SynchronisedAction, g};
+use crate::nc_program::{AxisIndex, Interpreter, Modal, Origin, ProgramAlarm, SynchronisedAction, g};
 use crate::sinumerik::exchange::state::Claim;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::auxiliary::Output;
@@ -328,12 +328,18 @@ pub(in crate::sinumerik) struct Run {
     pub resetting: Option<EventId>,
     /// DB21.DBX6.2 in the last cycle.
     pub delete_was: bool,
+    /// DB31.DBX2.2 of the axes of the path in the last cycle.
+    pub axial_delete_were: AxisSet,
+    /// The axes on their own ways that brake and drop the rest.
+    pub axial_deleting: AxisSet,
     /// The rest of the block is dropped when the path is at rest.
     pub deleting: bool,
     /// NC start has cancelled the alarm of a block.
     pub reads_again: bool,
     /// NEWCONF makes stored machine data effective at the end of the stage.
     pub new_conf: bool,
+    /// The block whose alarm SETAL has raised, until the next one begins.
+    pub alarm_origin: Option<Origin>,
     /// SETAL raises this alarm at the end of its block.
     pub cycle_alarm: Option<BlockAlarm>,
     /// Nothing more is prepared in this cycle.

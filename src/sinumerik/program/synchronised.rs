@@ -18,6 +18,7 @@ use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
 use crate::sinumerik::program::state::{ActiveAction, Run};
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::single_axis::orders::limit_behind;
 use crate::sinumerik::single_axis::state::{Order, OrderedBy};
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
@@ -192,6 +193,12 @@ impl State {
         let target = geometry::target(wanted, dimension, from, 0.0, parameters.modulo);
         #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
         let target = Position::new(target.round() as i64);
+        let limit = limit_behind(axis, target, &stage.to_nck.axes[axis], parameters);
+        if let Some((number, _)) = limit.filter(|_| self.axes[axis].is_referenced()) {
+            let reason = Parameter::Number(number.0.into());
+            self.raise_of_action(alarms::COMMAND_AXIS, [Parameter::Axis(axis), reason, Parameter::None], run, stage);
+            return;
+        }
         if of.holder != Holder::Program {
             self.order_command_axis(axis, (target, velocity), run, stage);
             return;

@@ -62,7 +62,7 @@ impl Preparing<'_> {
         for (place, &axis) in self.own.axes.path.iter().enumerate() {
             let (lowest, highest) = way.bounds(place);
             let moves = highest - lowest >= 0.5 || (end[place] - start[place]).abs() >= 0.5;
-            if !moves || !self.axes[axis].is_referenced() {
+            if !moves || !self.axes[axis].knows_position() {
                 continue;
             }
             let parameters = &self.parameters.axes[axis];
@@ -79,7 +79,8 @@ impl Preparing<'_> {
                         if beyond(limit, at_end) { alarms::BEHIND_SOFTWARE_LIMIT } else { alarms::PATH_BEHIND_LIMIT };
                     return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });
                 }
-                let area = parameters.working_area[side].filter(|_| block.modal.is(g::WALIMON));
+                let is_on = block.modal.is(g::WALIMON) && self.axes[axis].is_referenced();
+                let area = parameters.working_area[side].filter(|_| is_on);
                 if area.is_some_and(|limit| beyond(limit, extreme)) {
                     let number = alarms::OUTSIDE_WORKING_AREA;
                     return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });

@@ -24,6 +24,11 @@ impl ChannelProgram {
             values.program = program_name(program);
             return;
         }
+        if let Some(origin) = &run.alarm_origin {
+            values.block = block_number(&origin.name, origin.line);
+            values.program = program_name(&origin.program);
+            return;
+        }
         let runs = run.queue.front().filter(|_| run.phase != Phase::Between);
         if let Some(origin) = runs.map(|block| &block.origin).filter(|origin| !origin.is_display_off) {
             values.block = block_number(&origin.name, origin.line);

@@ -11,7 +11,8 @@
 //! with 20005 when it starts (O-30), and so does MD34200 other than 1 of a synchronous axis when its turn comes (C-47); a distance of 0
 //! (MD34030, MD34060) ends it with the alarm of this distance. An axis whose setpoint rests on or off the cam and that does not
 //! stand (MD36060) within 10 s ends it with 20005. 20006 is raised when the axis passes the cam edge at the wrong speed for the
-//! second time. Distance-coded marks and absolute encoders are in `known_position.rs`. NC stop is not read. Contour monitoring (25050) stops an axis that is blocked.
+//! second time. Distance-coded marks and absolute encoders are in `known_position.rs`. NC stop holds an approach
+//! in phases 1 and 3, and until NC start. Contour monitoring (25050) stops an axis that is blocked.
 
 use crate::control::Log;
 use crate::control::next;
@@ -338,6 +339,24 @@ impl Approach {
             }
         };
         if sign > 0.0 { 1 } else { -1 }
+    }
+
+    /// Whether NC stop acts now: in phases 1 and 3 of an incremental encoder, in the whole search for distance-coded marks without a cam.
+    pub(super) fn heeds_nc_stop(&self, axis: &Axis, parameters: &AxisParameters) -> bool {
+        let reference = &parameters.reference;
+        let encoder = usize::from(axis.measuring_system.unwrap_or(0));
+        let in_phases_1_and_3 = match self.phase {
+            Phase::SearchCam => reference.cam_is_active,
+            Phase::BrakeOnCam | Phase::GoToReferencePoint | Phase::ExactStop => true,
+            Phase::Idle
+            | Phase::LeaveCam
+            | Phase::BrakeOffCam
+            | Phase::SearchEdge
+            | Phase::PassShift
+            | Phase::SearchMark
+            | Phase::BrakeAfterMarks => false,
+        };
+        if reference.kind[encoder] == Kind::DistanceCoded { !reference.cam_is_active } else { in_phases_1_and_3 }
     }
 
     /// The command of the phase. The override acts in phases 1 and 3 only, feed stop in all.

@@ -6,12 +6,13 @@
 //! is already output (O-27). With MD11300 = 0 it stays pending also when it is released; RESET, leaving REF, the other key and 4.4 end that. A key in REF of a synchronous axis of an open grouping raises 16794 (E-15).
 //! A spindle (MD35000) has no approach: its key starts none, and channel-specific referencing and NC start leave it out.
 
-use crate::image::{ToNck, axis_from_nck, axis_to_nck, mode_group_from_nck};
+use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::gantry::view::View;
-use crate::sinumerik::inputs::{axis_signal, mode_group_signal};
+use crate::sinumerik::inputs::{axis_signal, channel_signal, mode_group_signal};
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
+use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::{ADJUSTED, AxisParameters, Kind};
 use crate::sinumerik::referencing::approach::Outcome;
@@ -40,7 +41,7 @@ impl State {
         self.watch_key(unit, self.axes[number].approach.is_running(), parameters, to_nck);
         if self.axes[number].approach.is_running() {
             self.reference_single(unit, parameters, to_nck);
-        } else if self.follow_program(unit, parameters) {
+        } else if self.follow_program(unit, parameters, to_nck) {
             self.watch_software_limits(unit, parameters, to_nck);
         } else if self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
@@ -318,6 +319,7 @@ impl State {
         parameters: &Parameters,
         to_nck: &ToNck,
     ) -> Outcome {
+        self.hold_approach_by_nc_stop(number, parameters, to_nck);
         let mut approach = self.axes[number].approach;
         let axis = &self.axes[number];
         let signals = &to_nck.axes[number];
@@ -333,6 +335,26 @@ impl State {
         let (begun, begins) = (approach.cause(), (Rule::ApproachStarted, cam));
         self.travel_on(number, travel, begun, begins, (Rule::ApproachTargetReached, approach.target));
         outcome
+    }
+
+    /// NC stop (7.3) holds an approach in JOG where it acts; NC start lets it go on (FB1, R1).
+    fn hold_approach_by_nc_stop(&mut self, number: AxisNumber, parameters: &Parameters, to_nck: &ToNck) {
+        let channel = self.owners.of(number).channel;
+        let jog = self.mode_groups[parameters.mode_group(channel)].mode == Mode::Jog;
+        let signals = &to_nck.channels[channel];
+        let axis = &mut self.axes[number];
+        let acts = jog && axis.approach.heeds_nc_stop(axis, &parameters.axes[number]);
+        let pressed = signals.nc_stop() || signals.nc_stop_axes_plus_spindles();
+        if pressed && acts {
+            let signal =
+                if signals.nc_stop() { channel_to_nck::nc_stop } else { channel_to_nck::nc_stop_axes_plus_spindles };
+            axis.approach.stopped = Some(channel_signal(channel, signal, true));
+        } else if !pressed && signals.nc_start() && axis.approach.stopped.take().is_some() && !axis.feed_held {
+            axis.feed_holder = channel_signal(channel, channel_to_nck::nc_start, true);
+        }
+        if let Some(holder) = axis.approach.stopped {
+            (axis.feed_held, axis.feed_holder) = (true, holder);
+        }
     }
 
     /// The event that ends an approach from outside: an alarm that stops, RESET, leaving REF, a missing enable, the key.

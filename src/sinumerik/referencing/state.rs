@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::control::{Transition, row};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
-use crate::variables::EventId;
+use crate::variables::{EventId, Input};
 
 /// Channel-specific referencing (REF-23): the active order number, and the axes already started.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -170,6 +170,8 @@ pub(in crate::sinumerik) struct Approach {
     pub second_attempt: bool,
     /// The axis passed the cam edge at the wrong speed once.
     pub creep_velocity_missed: bool,
+    /// The signal of NC stop that holds it until NC start.
+    pub stopped: Option<Input>,
     /// Number of cycles at the reference point without exact stop fine.
     pub waited: u64,
     /// The latest event.

@@ -1,7 +1,7 @@
 //! The stage: each axis that is positioned alone, for one cycle.
 
-use crate::image::{AxisToNck, ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_to_nck};
-use crate::sinumerik::alarms::Reaction;
+use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_to_nck};
+use crate::sinumerik::alarms::{self, Reaction};
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::axis::traversing::Stop;
 use crate::sinumerik::exchange::state::Holder;
@@ -13,7 +13,7 @@ use crate::sinumerik::rules::Rule;
 use crate::sinumerik::single_axis::state::{Order, OrderedBy, Outcome};
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, AxisSet, Position};
-use crate::variables::{EventId, Input, Place, Quantity};
+use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 
 /// The position was not reached.
 const NOT_REACHED: u8 = 115;
@@ -36,7 +36,7 @@ impl State {
             self.watch_start(axis, signals, parameters);
             self.show_limit(axis);
             if let (Some(order), Some(unit)) = (self.single.axes[axis].order, self.unit_of(axis)) {
-                self.watch_end(axis, &unit, order, parameters, signals);
+                self.watch_end(axis, &unit, order, parameters, to_nck);
                 self.move_single_axis(axis, &unit, parameters, to_nck);
             }
             self.single.note_watched(axis);
@@ -51,7 +51,8 @@ impl State {
     }
 
     /// What ends an order before its target.
-    fn watch_end(&mut self, axis: AxisNumber, unit: &Unit, order: Order, parameters: &Parameters, signals: &AxisToNck) {
+    fn watch_end(&mut self, axis: AxisNumber, unit: &Unit, order: Order, parameters: &Parameters, to_nck: &ToNck) {
+        let signals = &to_nck.axes[axis];
         let delete = signals.delete_distance_to_go_spindle_reset();
         let deletes = delete && !std::mem::replace(&mut self.single.axes[axis].delete_was, delete);
         self.single.axes[axis].delete_was = delete;
@@ -66,6 +67,11 @@ impl State {
             (Rule::DistanceDeleted, pressed, EventId::NONE, Outcome::None)
         } else if let Some((rule, input)) = self.obstacle(axis, unit, order) {
             (rule, input, order.cause, Outcome::Failed(NOT_REACHED))
+        } else if self.axes[axis].setpoint.is_at_rest()
+            && order.begun
+            && let Some(input) = self.rests_on_limit(unit, order, parameters, to_nck)
+        {
+            (Rule::StoppedByAlarm, input, order.cause, Outcome::Failed(NOT_REACHED))
         } else {
             return;
         };
@@ -75,6 +81,14 @@ impl State {
         if let Some(order) = &mut one.order {
             order.ending = Some(outcome);
         }
+    }
+
+    /// The alarm of the limit that a unit has reached on the way to its target: 10620, 10630.
+    fn rests_on_limit(&mut self, unit: &Unit, order: Order, parameters: &Parameters, to_nck: &ToNck) -> Option<Input> {
+        let is_free = self.before_limit(unit, (order.target, true), parameters, to_nck).is_some();
+        let reached = [alarms::REACHES_SOFTWARE_LIMIT, alarms::REACHES_WORKING_AREA];
+        let pending = |number: &AlarmNumber| unit.members().any(|of| self.alarms.is_pending(*number, Place::Axis(of)));
+        reached.into_iter().find(pending).filter(|_| !is_free).map(|number| Input::Alarm(number.0))
     }
 
     /// What stops the channel of an axis; of an axis that the PLC controls, only emergency stop and alarms of the axis and of the NCK.

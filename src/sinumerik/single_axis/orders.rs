@@ -3,6 +3,7 @@
 //! | error | condition |
 //! |---|---|
 //! | 1 | several ways of approach at once |
+//! | 20 | it still brakes after Start = 0 (X-11) |
 //! | 40 | the axis is no PLC axis: programs have it, or it is neutral |
 //! | 50, 60 | a permanent, temporary PLC axis that is jogged or referenced |
 //! | 100 | a value that is no position, a modulo position outside of 0 to 359.999 (MD30455 bit 0 = 0), or no velocity: neither a feedrate nor MD32060 |
@@ -27,6 +28,9 @@ use crate::sinumerik::single_axis::state::{Order, OrderedBy, Outcome};
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, Quantity, RaisedAlarm};
+
+/// A start before the axis stands.
+const STARTED_TOO_EARLY: u8 = 20;
 
 /// Why a start is refused: the error number, what was tested, and the limit behind which the target is.
 struct OrderRefusal {
@@ -77,8 +81,16 @@ impl State {
                 let inputs = [starts, refusal.input, Input::None];
                 let event = self.log.note(Place::Axis(axis), Rule::OrderRefused, inputs, EventId::NONE);
                 let one = &mut self.single.axes[axis];
-                if one.order.is_none() {
-                    (one.outcome, one.cause, one.limit) = (Outcome::Refused(refusal.error), event, refusal.limit);
+                match &mut one.order {
+                    None => {
+                        (one.outcome, one.cause, one.limit) = (Outcome::Refused(refusal.error), event, refusal.limit);
+                    }
+                    // Start came again while the axis still brakes. The refusal stays until Start is 0.
+                    Some(order) if order.by == OrderedBy::Plc && order.ending.is_some() => {
+                        let refused = Outcome::Refused(STARTED_TOO_EARLY);
+                        (order.ending, one.outcome, one.cause) = (Some(refused), refused, event);
+                    }
+                    Some(_) => {}
                 }
             }
         }
@@ -97,7 +109,9 @@ impl State {
         let one = &mut self.single.axes[axis];
         one.cause = event;
         match &mut one.order {
-            Some(order) if order.by == OrderedBy::Plc => order.ending = Some(Outcome::None),
+            Some(order) if order.by == OrderedBy::Plc => {
+                (order.ending, one.outcome) = (Some(Outcome::None), Outcome::None);
+            }
             Some(_) => {}
             None => one.outcome = Outcome::None,
         }
@@ -216,6 +230,16 @@ fn velocity(signals: &AxisToNck, data: &AxisParameters) -> Option<f64> {
         data.positioning_velocity
     };
     (wanted > 0.0 && wanted.is_finite()).then(|| wanted.min(data.maximum_velocity))
+}
+
+/// The alarm of the limit behind which a target is, and its direction.
+pub(in crate::sinumerik) fn limit_behind(
+    axis: AxisNumber,
+    target: Position,
+    signals: &AxisToNck,
+    data: &AxisParameters,
+) -> Option<(AlarmNumber, i8)> {
+    behind_limit(axis, target, signals, data).err().and_then(|refusal| refusal.limit)
 }
 
 /// 20070, 20071: only of a referenced axis.
