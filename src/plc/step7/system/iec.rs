@@ -67,7 +67,6 @@ impl Cpu {
     fn set_letters<A: Areas>(&mut self, areas: &mut A, index: u16, text: &[u8], is_good: bool) -> Result<(), Fault> {
         let at = self.element(areas, index)?;
         let [maximum]: [u8; 1] = self.read_bytes(areas, at)?;
-        let text = if is_good || !text.is_empty() { text } else { &[] };
         let length = text.len().min(usize::from(maximum));
         self.state.registers.status.br = is_good && length == text.len();
         self.write_bytes(areas, at.after(1), [u8::try_from(length).unwrap_or(u8::MAX)])?;
