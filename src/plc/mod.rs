@@ -26,6 +26,7 @@
 mod bench;
 mod blocks;
 mod closure;
+mod diagnosis;
 mod io;
 mod process;
 mod programs;
@@ -37,6 +38,7 @@ mod tests;
 
 pub use blocks::{FallingEdge, OffDelay, OnDelay, ResetDominantLatch, RisingEdge, SetDominantLatch};
 pub use closure::{ClosureProgram, program, program_for, program_with_fault};
+pub use diagnosis::PlcDiagnosis;
 pub use io::PlcIo;
 pub use process::PlcProcess;
 pub use programs::{
@@ -50,8 +52,6 @@ pub use spin_ctrl::{SpinCtrl, SpinCtrlInputs, SpinCtrlOutputs};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::{AsBytes, Location, Memory, Names, Part};
 use crate::source::Problem;
 use crate::units::Time;
@@ -64,17 +64,6 @@ pub struct PlcFault {
     pub reason: String,
     /// The entries of the diagnostic buffer, if the program is one of a CPU with such entries.
     pub diagnosis: Option<PlcDiagnosis>,
-}
-
-/// Why a CPU stopped, as its diagnostic buffer has it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PlcDiagnosis {
-    /// The event that led to STOP, if there is one.
-    pub cause: Option<u16>,
-    /// The event of the change to STOP.
-    pub stop: u16,
-    /// Additional information of both.
-    pub information: [u8; 10],
 }
 
 impl PlcFault {

@@ -11,16 +11,17 @@ use super::file::steps_of;
 use super::naming::{Known, check_captured_name, enable_of, place_named, writable};
 use super::operator::Plan;
 use super::passing::{Book, Next, Progress};
+use super::program_rows::{begun, program_rows, remember};
 use super::programs::Text;
 use super::steps::{Action, Reader, Steps};
 use super::values::Setting;
 use crate::expression::{Expression, Followed};
-use crate::image::{Format, Location, Part};
+use crate::image::Location;
 use crate::machine::{Command, Machine};
 use crate::monitor::{Claim, Consequence, Rule, Span};
-use crate::plc::{PlcProgram, ProgramCause, Programs, Tested, step7};
+use crate::plc::{PlcProgram, Programs};
 use crate::source::{Place, Problem};
-use crate::trace::{Head, ProgramRow, Trace, Watch, Window};
+use crate::trace::{Head, Trace, Watch, Window};
 use crate::units::Time;
 
 /// A machine with its growing trace.
@@ -58,11 +59,7 @@ impl Session {
     #[must_use]
     pub fn new(mut machine: Machine) -> Self {
         machine.observe_program();
-        let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time());
-        if let Some(symbols) = machine.program_symbols() {
-            trace.name_program(symbols);
-        }
-        Self { trace, watch: Watch::default(), book: Book::new(&machine), texts: Vec::new(), machine }
+        Self { trace: begun(&machine), watch: Watch::default(), book: Book::new(&machine), texts: Vec::new(), machine }
     }
 
     /// The same session with a PLC program.
@@ -70,21 +67,8 @@ impl Session {
     pub fn with_program(mut self, program: Box<dyn PlcProgram>) -> Self {
         self.machine.load_program(program);
         self.machine.observe_program();
-        self.trace.remember(self.machine.memory());
-        if let Some(symbols) = self.machine.program_symbols() {
-            self.trace.name_program(symbols);
-        }
+        remember(&mut self.trace, &self.machine);
         self
-    }
-
-    /// The same session with the STEP 7 program in a folder.
-    ///
-    /// # Errors
-    /// The folder cannot be read, or its sources have findings.
-    pub fn with_step7(self, folder: impl AsRef<Path>) -> Result<Self, Failure> {
-        let folder = folder.as_ref();
-        let name = folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        Ok(self.with_program(step7::load(folder, &name)?.boxed()))
     }
 
     /// The machine.
@@ -501,22 +485,4 @@ impl Session {
         expression.follow(followed);
         Ok(expression)
     }
-}
-
-/// Why the PLC program changed bits in the last cycle, for the trace.
-fn program_rows(machine: &Machine) -> impl Iterator<Item = ProgramRow> {
-    let word = |part, number: u16| {
-        let offset = u32::from(number) * 2;
-        Location { part, offset, bit: 0, width: 16, format: Format::Unsigned }
-    };
-    let tested = move |tested: &Tested| match *tested {
-        Tested::Bit(location, value) => (location, value),
-        Tested::Timer(number, status) => (word(Part::Timers, number), status),
-        Tested::Counter(number, status) => (word(Part::Counters, number), status),
-    };
-    machine.program_causes().into_iter().map(move |cause| {
-        let ProgramCause { part, bit, bits, value, statement, tested: operands } = cause;
-        let tested = operands.iter().map(tested).collect();
-        ProgramRow { cycle: machine.cycle(), part, bit, bits, value, statement, tested }
-    })
 }

@@ -190,7 +190,7 @@ fn delays_act_as_for_closures() {
         [[step]]\nset = { \"I0.1\" = 1 }\n[[step]]\nwait = \"!Y.position_controller_active\"\nwithin = \"1s\"\n";
     let late = passes(&directory, scenario).session().time();
     let at_once = passes(&directory, &scenario.replace("10ms", "0ms")).session().time();
-    assert_eq!((late - at_once).milliseconds(), 10.0);
+    assert_eq!(late - at_once, Time::from_millis(10));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::plc::step7::program::Program;
 use super::arithmetic::digits;
 use super::fault::Stop;
 use super::memory::OpenBlock;
-use super::observe::Observed;
+use super::observed::Observed;
 use super::registers::Registers;
 use super::timer::{Counter, Timer, bcd};
 

@@ -7,6 +7,7 @@ mod cpu;
 mod fault;
 mod memory;
 mod observe;
+mod observed;
 mod operations;
 mod organization;
 mod real;
@@ -21,4 +22,5 @@ pub use memory::{Area, Areas, OpenBlock, OwnMemory};
 pub use registers::{Registers, Status};
 
 pub(in crate::plc::step7) use access::{Spot, Where};
-pub(in crate::plc::step7) use observe::{Kind, NO, Named, Observed, RAN, Seen, YES, kind};
+pub(in crate::plc::step7) use observe::{Kind, kind};
+pub(in crate::plc::step7) use observed::{NO, Named, Observed, RAN, Seen, YES};

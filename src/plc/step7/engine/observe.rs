@@ -4,78 +4,17 @@
 
 use arrayvec::ArrayVec;
 
-use crate::plc::step7::instruction::{Condition, CopySource, Instance, Jump, Number, Op, Operand, Target, Width};
+use crate::plc::step7::instruction::{Condition, CopySource, Instance, Jump, Op, Operand, Target, Width};
 
 use crate::plc::step7::system::{SYSTEM, System};
 
 use super::access::{Spot, Where};
 use super::cpu::Cpu;
-use super::memory::{Area, Areas, OpenBlock};
-
-/// The changes that are kept of one cycle.
-const CHANGES: usize = 512;
-/// The operands that are kept of one change.
-pub(in crate::plc::step7) const OPERANDS: usize = 8;
-
-/// The instruction ran.
-pub(in crate::plc::step7) const RAN: u8 = 1;
-/// A contact was false, or a branch was not taken.
-pub(in crate::plc::step7) const NO: u8 = 2;
-/// A contact was true, or a branch was taken.
-pub(in crate::plc::step7) const YES: u8 = 4;
-
-/// A place that has a name outside of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::plc::step7) enum Named {
-    Area(Area, u32),
-    /// A data block by its number.
-    Block(u16, u32),
-    Timer(u16),
-    Counter(u16),
-}
-
-/// A change of the memory, and the operands that made it.
-#[derive(Clone, Debug)]
-pub(in crate::plc::step7) struct Seen {
-    pub(in crate::plc::step7) pc: u32,
-    pub(in crate::plc::step7) place: Named,
-    /// The bits that were written from that place on.
-    pub(in crate::plc::step7) bits: u32,
-    /// The new value of a bit; 0 for a wider operand.
-    pub(in crate::plc::step7) value: bool,
-    pub(in crate::plc::step7) tested: ArrayVec<(Named, bool), OPERANDS>,
-}
-
-/// What was observed of a program.
-#[derive(Clone, Debug)]
-pub(in crate::plc::step7) struct Observed {
-    /// For each instruction [`RAN`], [`NO`] and [`YES`].
-    pub(in crate::plc::step7) marks: Vec<u8>,
-    /// The changes of the present cycle.
-    pub(in crate::plc::step7) seen: Vec<Seen>,
-    /// Bits that are written with the value that they have count, too, and those that are not set or not reset.
-    pub(in crate::plc::step7) has_all_writes: bool,
-    /// The IEC timer that is being called.
-    clock: Option<Clock>,
-}
-
-/// An IEC timer before its call: its instance, and whether Q was set.
-#[derive(Clone, Copy, Debug)]
-struct Clock {
-    block: OpenBlock,
-    begin: u32,
-    is_pulse: bool,
-    before: bool,
-}
+use super::memory::{Area, Areas};
+use super::observed::{CHANGES, Clock, NO, Named, RAN, Seen, YES};
 
 /// The bit address of Q in the instance of an IEC timer; IN is its first bit.
 const Q: u32 = 6 * 8;
-
-impl Observed {
-    pub(in crate::plc::step7) fn new(instructions: usize) -> Self {
-        Self { marks: vec![0; instructions], seen: Vec::with_capacity(CHANGES), has_all_writes: false, clock: None }
-    }
-}
 
 /// What an instruction is about to write.
 #[derive(Clone, Copy, Debug)]
@@ -314,13 +253,5 @@ pub(in crate::plc::step7) fn kind(op: Op) -> Kind {
             Kind::Branch
         }
         _ => Kind::Plain,
-    }
-}
-
-/// The number of a timer or counter, if it does not depend on memory.
-pub(super) fn direct(number: Number) -> Option<u16> {
-    match number {
-        Number::Direct(number) => Some(number),
-        Number::At(..) | Number::Parameter(_) | Number::Own(_) => None,
     }
 }

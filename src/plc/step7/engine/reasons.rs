@@ -7,7 +7,7 @@ use crate::plc::step7::instruction::{CopySource, Jump, Logic, Number, Op, Operan
 
 use super::cpu::Cpu;
 use super::memory::{Areas, OpenBlock};
-use super::observe::{Named, OPERANDS, direct};
+use super::observed::{Named, OPERANDS};
 
 /// The nodes of the tree of a logic string.
 const NODES: usize = 96;
@@ -437,4 +437,12 @@ fn moves_registers(op: Op) -> bool {
             | Op::SwapDb
             | Op::Call(_)
     )
+}
+
+/// The number of a timer or counter, if it does not depend on memory.
+fn direct(number: Number) -> Option<u16> {
+    match number {
+        Number::Direct(number) => Some(number),
+        Number::At(..) | Number::Parameter(_) | Number::Own(_) => None,
+    }
 }

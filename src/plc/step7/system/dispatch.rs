@@ -58,6 +58,22 @@ impl Cpu {
             System::Pulse | System::OnDelay | System::OffDelay => {
                 self.iec_timer(areas, SYSTEM[usize::from(index)].system)
             }
+            System::TestBlock => {
+                let number = u16::try_from(self.argument(areas, 0, Width::Word)?).unwrap_or(0);
+                let block = areas.block(number).filter(|_| number != 0);
+                self.set_argument(areas, 2, Width::Word, block.map_or(0, |block| block.length))?;
+                self.set_argument(areas, 3, Width::Bit, 0)?;
+                // 80B1h: the data block does not exist.
+                self.result(areas, 1, if block.is_some() { 0 } else { 0x80B1 })
+            }
+            System::Accepted => self.result(areas, 4, 0),
+            System::NoModule => {
+                // 8090h: no module has this address. BUSY follows RET_VAL.
+                let index =
+                    if SYSTEM[usize::from(index)].block.is_some_and(|block| block.number == 58) { 5 } else { 4 };
+                self.set_argument(areas, index + 1, Width::Bit, 0)?;
+                self.result(areas, index, 0x8090)
+            }
             library => self.library(areas, library),
         }
     }
@@ -189,7 +205,7 @@ pub(in crate::plc::step7) fn parts_of(bytes: [u8; 8]) -> Option<(u32, u32, u32)>
     Some((day, ((hour * 60 + minute) * 60 + second) * 1000 + millis, (day + 1) % 7 + 1))
 }
 
-fn millis_of(bytes: [u8; 8]) -> Option<i64> {
+pub(in crate::plc::step7) fn millis_of(bytes: [u8; 8]) -> Option<i64> {
     let (days, millis, _) = parts_of(bytes)?;
     Some(i64::from(days) * DAY_MILLIS + i64::from(millis))
 }

@@ -45,6 +45,37 @@ pub(in crate::plc::step7) enum System {
     DoubleToText,
     TextToInt,
     TextToDouble,
+    TextEqual,
+    TextNotEqual,
+    TextGreater,
+    TextGreaterEqual,
+    TextLess,
+    TextLessEqual,
+    DateEqual,
+    DateNotEqual,
+    DateGreater,
+    DateGreaterEqual,
+    DateLess,
+    DateLessEqual,
+    DateLater,
+    DateEarlier,
+    DateDifference,
+    Length,
+    Find,
+    Left,
+    Right,
+    Middle,
+    Concatenate,
+    Insert,
+    Delete,
+    Replace,
+    Select,
+    BitSum,
+    Encode,
+    Decode,
+    TestBlock,
+    Accepted,
+    NoModule,
 }
 
 /// A row of the table: what it is, where it is called, its name, its parameters.
@@ -64,6 +95,7 @@ pub(in crate::plc::step7) enum Kind {
     Word,
     Int,
     DInt,
+    DWord,
     Real,
     Time,
     S5Time,
@@ -79,7 +111,8 @@ pub(in crate::plc::step7) enum Kind {
 }
 
 use Kind::{
-    Any, Bool, Byte, DInt, Date, DateTime, Information, Int, Real, S5Time, Text, Time, TimeOfDay, TimerState, Word,
+    Any, Bool, Byte, DInt, DWord, Date, DateTime, Information, Int, Real, S5Time, Text, Time, TimeOfDay, TimerState,
+    Word,
 };
 use Section::{Input, Output, Static};
 
@@ -110,6 +143,16 @@ const IEC_TIMER: &[(&str, Section, Kind)] = &[
 ];
 const THREE: &[(&str, Section, Kind)] =
     &[("IN1", Input, Any), ("IN2", Input, Any), ("IN3", Input, Any), ("RET_VAL", Output, Any)];
+const MESSAGE: &[(&str, Section, Kind)] =
+    &[("SIG", Input, Bool), ("ID", Input, Word), ("EV_ID", Input, DWord), ("SD", Input, Any), RETURN];
+const TEXT: (&str, Section, Kind) = ("RET_VAL", Output, Text);
+const TRUTH: (&str, Section, Kind) = ("RET_VAL", Output, Bool);
+const TWO_TEXTS: &[(&str, Section, Kind)] = &[("S1", Input, Text), ("S2", Input, Text), TRUTH];
+const TWO_DATES: &[(&str, Section, Kind)] = &[("DT1", Input, DateTime), ("DT2", Input, DateTime), TRUTH];
+const DATE_AND_DURATION: &[(&str, Section, Kind)] =
+    &[("T", Input, DateTime), ("D", Input, Time), ("RET_VAL", Output, DateTime)];
+const TEXT_END: &[(&str, Section, Kind)] = &[("IN", Input, Text), ("L", Input, Int), TEXT];
+const TEXT_PART: &[(&str, Section, Kind)] = &[("IN", Input, Text), ("L", Input, Int), ("P", Input, Int), TEXT];
 const MOVE: &[(&str, Section, Kind)] = &[("SRCBLK", Input, Any), RETURN, ("DSTBLK", Output, Any)];
 
 /// All built-in blocks.
@@ -126,7 +169,15 @@ pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
     row(System::WriteConsistent, sfc(15), "DPWR_DAT", &[("LADDR", Input, Word), ("RECORD", Input, Any), RETURN]),
     row(System::BlockMove, sfc(20), "BLKMOV", MOVE),
     row(System::BlockMove, sfc(81), "UBLKMOV", MOVE),
+    row(System::Accepted, sfc(17), "ALARM_SQ", MESSAGE),
+    row(System::Accepted, sfc(18), "ALARM_S", MESSAGE),
     row(System::Fill, sfc(21), "FILL", &[("BVAL", Input, Any), RETURN, ("BLK", Output, Any)]),
+    row(
+        System::TestBlock,
+        sfc(24),
+        "TEST_DB",
+        &[("DB_NUMBER", Input, Word), RETURN, ("DB_LENGTH", Output, Word), ("WRITE_PROT", Output, Bool)],
+    ),
     row(System::UpdateImage, sfc(26), "UPDAT_PI", &[("PART", Input, Byte), RETURN, ("FLADDR", Output, Word)]),
     row(System::UpdateImage, sfc(27), "UPDAT_PO", &[("PART", Input, Byte), RETURN, ("FLADDR", Output, Word)]),
     row(System::DisableInterrupts, sfc(39), "DIS_IRT", &[("MODE", Input, Byte), ("OB_NR", Input, Int), RETURN]),
@@ -136,6 +187,34 @@ pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
     row(System::Retrigger, sfc(43), "RE_TRIGR", &[]),
     row(System::Stop, sfc(46), "STP", &[]),
     row(System::Wait, sfc(47), "WAIT", &[("WT", Input, Int)]),
+    row(
+        System::NoModule,
+        sfc(58),
+        "WR_REC",
+        &[
+            ("REQ", Input, Bool),
+            ("IOID", Input, Byte),
+            ("LADDR", Input, Word),
+            ("RECNUM", Input, Byte),
+            ("RECORD", Input, Any),
+            RETURN,
+            ("BUSY", Output, Bool),
+        ],
+    ),
+    row(
+        System::NoModule,
+        sfc(59),
+        "RD_REC",
+        &[
+            ("REQ", Input, Bool),
+            ("IOID", Input, Byte),
+            ("LADDR", Input, Word),
+            ("RECNUM", Input, Byte),
+            RETURN,
+            ("BUSY", Output, Bool),
+            ("RECORD", Output, Any),
+        ],
+    ),
     row(System::TimeTick, sfc(64), "TIME_TCK", &[("RET_VAL", Output, Time)]),
     row(
         System::CountUp,
@@ -232,6 +311,49 @@ pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
     row(System::DoubleToText, None, "DI_STRNG", &[("I", Input, DInt), ("RET_VAL", Output, Text)]),
     row(System::TextToInt, None, "STRNG_I", &[("S", Input, Text), ("RET_VAL", Output, Int)]),
     row(System::TextToDouble, None, "STRNG_DI", &[("S", Input, Text), ("RET_VAL", Output, DInt)]),
+    row(System::TextEqual, None, "EQ_STRNG", TWO_TEXTS),
+    row(System::DateEqual, None, "EQ_DT", TWO_DATES),
+    row(System::TextNotEqual, None, "NE_STRNG", TWO_TEXTS),
+    row(System::DateNotEqual, None, "NE_DT", TWO_DATES),
+    row(System::TextGreater, None, "GT_STRNG", TWO_TEXTS),
+    row(System::DateGreater, None, "GT_DT", TWO_DATES),
+    row(System::TextGreaterEqual, None, "GE_STRNG", TWO_TEXTS),
+    row(System::DateGreaterEqual, None, "GE_DT", TWO_DATES),
+    row(System::TextLess, None, "LT_STRNG", TWO_TEXTS),
+    row(System::DateLess, None, "LT_DT", TWO_DATES),
+    row(System::TextLessEqual, None, "LE_STRNG", TWO_TEXTS),
+    row(System::DateLessEqual, None, "LE_DT", TWO_DATES),
+    row(System::DateLater, None, "AD_DT_TM", DATE_AND_DURATION),
+    row(System::DateEarlier, None, "SB_DT_TM", DATE_AND_DURATION),
+    row(
+        System::DateDifference,
+        None,
+        "SB_DT_DT",
+        &[("DT1", Input, DateTime), ("DT2", Input, DateTime), ("RET_VAL", Output, Time)],
+    ),
+    row(System::Length, None, "LEN", &[("S", Input, Text), RETURN]),
+    row(System::Find, None, "FIND", &[("IN1", Input, Text), ("IN2", Input, Text), RETURN]),
+    row(System::Left, None, "LEFT", TEXT_END),
+    row(System::Right, None, "RIGHT", TEXT_END),
+    row(System::Middle, None, "MID", TEXT_PART),
+    row(System::Delete, None, "DELETE", TEXT_PART),
+    row(System::Concatenate, None, "CONCAT", &[("IN1", Input, Text), ("IN2", Input, Text), TEXT]),
+    row(System::Insert, None, "INSERT", &[("IN1", Input, Text), ("IN2", Input, Text), ("P", Input, Int), TEXT]),
+    row(
+        System::Replace,
+        None,
+        "REPLACE",
+        &[("IN1", Input, Text), ("IN2", Input, Text), ("L", Input, Int), ("P", Input, Int), TEXT],
+    ),
+    row(
+        System::Select,
+        None,
+        "SEL",
+        &[("G", Input, Bool), ("IN0", Input, Any), ("IN1", Input, Any), ("RET_VAL", Output, Any)],
+    ),
+    row(System::BitSum, None, "BITSUM", &[("IN", Input, DWord), RETURN]),
+    row(System::Encode, None, "ENCO", &[("IN", Input, DWord), RETURN]),
+    row(System::Decode, None, "DECO", &[("IN", Input, Word), ("RET_VAL", Output, DWord)]),
 ];
 
 impl SystemBlock {
@@ -255,6 +377,7 @@ impl Kind {
             Self::Word => Type::Word,
             Self::Int => Type::Int,
             Self::DInt => Type::DInt,
+            Self::DWord => Type::DWord,
             Self::Real => Type::Real,
             Self::Time => Type::Time,
             Self::S5Time => Type::S5Time,

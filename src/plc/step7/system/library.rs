@@ -74,6 +74,43 @@ impl Cpu {
                 let value = self.text_to_number(areas, i64::from(i32::MIN), i64::from(i32::MAX))?;
                 self.set_argument(areas, 1, Width::Double, (value as i32).cast_unsigned())
             }
+            System::TextEqual
+            | System::TextNotEqual
+            | System::TextGreater
+            | System::TextGreaterEqual
+            | System::TextLess
+            | System::TextLessEqual => self.compare_texts(areas, function),
+            System::DateEqual
+            | System::DateNotEqual
+            | System::DateGreater
+            | System::DateGreaterEqual
+            | System::DateLess
+            | System::DateLessEqual => self.compare_dates(areas, function),
+            System::DateLater => self.shift_date(areas, true),
+            System::DateEarlier => self.shift_date(areas, false),
+            System::DateDifference => self.difference_of_dates(areas),
+            System::Length | System::Find => self.text_number(areas, function),
+            System::Left => self.text_end(areas, true),
+            System::Right => self.text_end(areas, false),
+            System::Middle => self.text_middle(areas),
+            System::Concatenate => self.text_join(areas),
+            System::Insert => self.text_insert(areas),
+            System::Delete => self.text_delete(areas),
+            System::Replace => self.text_replace(areas),
+            System::Select => self.select(areas),
+            System::BitSum => {
+                let value = self.argument(areas, 0, Width::Double)?;
+                self.set_argument(areas, 1, Width::Word, value.count_ones())
+            }
+            // The number of the lowest bit that is set; of no bit 0.
+            System::Encode => {
+                let value = self.argument(areas, 0, Width::Double)?;
+                self.set_argument(areas, 1, Width::Word, if value == 0 { 0 } else { value.trailing_zeros() })
+            }
+            System::Decode => {
+                let bit = self.argument(areas, 0, Width::Word)? & 31;
+                self.set_argument(areas, 1, Width::Double, 1 << bit)
+            }
             _ => Ok(()),
         }
     }
@@ -95,7 +132,12 @@ impl Cpu {
         })
     }
 
-    fn copy_region<A: Areas>(&mut self, areas: &mut A, from: Region, to: Region) -> Result<(), Fault> {
+    pub(in crate::plc::step7) fn copy_region<A: Areas>(
+        &mut self,
+        areas: &mut A,
+        from: Region,
+        to: Region,
+    ) -> Result<(), Fault> {
         for byte in 0..from.bytes {
             let [value]: [u8; 1] = self.read_bytes(areas, from.spot.after(byte))?;
             self.write_bytes(areas, to.spot.after(byte), [value])?;

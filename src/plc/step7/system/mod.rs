@@ -2,6 +2,7 @@
 
 mod counters;
 mod dispatch;
+mod iec;
 mod interface;
 mod library;
 mod transfer;

@@ -187,6 +187,185 @@ fn library_functions_are_found_by_their_names() {
     assert_eq!(plc.word(20), 0xFF85);
 }
 
+/// `FUNCTION FC n : type, NAME : name, VAR_INPUT …` of a library, without statements.
+fn declared(number: u16, name: &str, result: &str, inputs: &str) -> String {
+    format!("FUNCTION FC {number} : {result}\nNAME : {name}\nVAR_INPUT\n{inputs}\nEND_VAR\nBEGIN\nEND_FUNCTION\n")
+}
+
+/// Texts in DB20: a is "ABCDE", b is "CD", r has room for 8 letters. Each call with the text and the BR that it gives.
+#[test]
+fn functions_on_texts_cut_join_and_find() {
+    let two = "IN1 : STRING; IN2 : STRING;";
+    let cases: [(&str, &str, &str, &str, &str, bool); 20] = [
+        ("LEFT", "IN : STRING; L : INT;", "IN := DB20.a, L := 2", "STRING", "AB", true),
+        ("LEFT", "IN : STRING; L : INT;", "IN := DB20.a, L := 9", "STRING", "ABCDE", true),
+        ("LEFT", "IN : STRING; L : INT;", "IN := DB20.a, L := -1", "STRING", "", false),
+        ("RIGHT", "IN : STRING; L : INT;", "IN := DB20.a, L := 2", "STRING", "DE", true),
+        ("MID", "IN : STRING; L : INT; P : INT;", "IN := DB20.a, L := 2, P := 3", "STRING", "CD", true),
+        ("MID", "IN : STRING; L : INT; P : INT;", "IN := DB20.a, L := 9, P := 5", "STRING", "E", true),
+        ("MID", "IN : STRING; L : INT; P : INT;", "IN := DB20.a, L := 1, P := 6", "STRING", "", false),
+        ("MID", "IN : STRING; L : INT; P : INT;", "IN := DB20.a, L := 0, P := 1", "STRING", "", false),
+        ("CONCAT", two, "IN1 := DB20.b, IN2 := DB20.a", "STRING", "CDABCDE", true),
+        ("CONCAT", two, "IN1 := DB20.a, IN2 := DB20.a", "STRING", "ABCDEABC", false),
+        (
+            "INSERT",
+            "IN1 : STRING; IN2 : STRING; P : INT;",
+            "IN1 := DB20.a, IN2 := DB20.b, P := 1",
+            "STRING",
+            "ACDBCDE",
+            true,
+        ),
+        (
+            "INSERT",
+            "IN1 : STRING; IN2 : STRING; P : INT;",
+            "IN1 := DB20.a, IN2 := DB20.b, P := 0",
+            "STRING",
+            "CDABCDE",
+            true,
+        ),
+        (
+            "INSERT",
+            "IN1 : STRING; IN2 : STRING; P : INT;",
+            "IN1 := DB20.a, IN2 := DB20.b, P := 9",
+            "STRING",
+            "ABCDECD",
+            true,
+        ),
+        ("DELETE", "IN : STRING; L : INT; P : INT;", "IN := DB20.a, L := 2, P := 2", "STRING", "ADE", true),
+        ("DELETE", "IN : STRING; L : INT; P : INT;", "IN := DB20.a, L := 9, P := 4", "STRING", "ABC", true),
+        ("DELETE", "IN : STRING; L : INT; P : INT;", "IN := DB20.a, L := 0, P := 4", "STRING", "ABCDE", true),
+        (
+            "REPLACE",
+            "IN1 : STRING; IN2 : STRING; L : INT; P : INT;",
+            "IN1 := DB20.a, IN2 := DB20.b, L := 3, P := 2",
+            "STRING",
+            "ACDE",
+            true,
+        ),
+        (
+            "REPLACE",
+            "IN1 : STRING; IN2 : STRING; L : INT; P : INT;",
+            "IN1 := DB20.a, IN2 := DB20.b, L := 1, P := 9",
+            "STRING",
+            "ABCDECD",
+            true,
+        ),
+        (
+            "REPLACE",
+            "IN1 : STRING; IN2 : STRING; L : INT; P : INT;",
+            "IN1 := DB20.a, IN2 := DB20.b, L := -1, P := 1",
+            "STRING",
+            "",
+            false,
+        ),
+        ("CONCAT", two, "IN1 := DB20.e, IN2 := DB20.e", "STRING", "", true),
+    ];
+    for (name, inputs, call, result, wanted, br) in cases {
+        let blocks = declared(100, name, result, inputs) + TEXTS;
+        let mut plc = plc(&blocks, &format!("CALL FC 100 ( {call}, RET_VAL := DB20.r ); A BR; = M 0.0;"));
+        plc.scan();
+        let data = plc.memory.data(20).unwrap();
+        let at = data.len() - 10;
+        let length = usize::from(data[at + 1]);
+        assert_eq!(std::str::from_utf8(&data[at + 2..at + 2 + length]), Ok(wanted), "{name} {call}");
+        assert_eq!(plc.bit(0, 0), br, "{name} {call}");
+    }
+}
+
+const TEXTS: &str = "DATA_BLOCK DB 20\nSTRUCT\na : STRING [6] := 'ABCDE';\nb : STRING [4] := 'CD';\ne : STRING [4];\n\
+    early : DATE_AND_TIME := DT#99-12-31-23:59:59.000;\nlate : DATE_AND_TIME := DT#00-1-1-0:0:1.500;\nd : DATE_AND_TIME;\nr : STRING [8];\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n";
+
+#[test]
+fn texts_and_dates_are_compared_and_counted() {
+    let two = |name: &str| {
+        declared(
+            100,
+            name,
+            "BOOL",
+            if name.ends_with("DT") {
+                "DT1 : DATE_AND_TIME; DT2 : DATE_AND_TIME;"
+            } else {
+                "S1 : STRING; S2 : STRING;"
+            },
+        )
+    };
+    for (name, less, equal, greater) in [
+        ("EQ", false, true, false),
+        ("NE", true, false, true),
+        ("GT", false, false, true),
+        ("GE", false, true, true),
+        ("LT", true, false, false),
+        ("LE", true, true, false),
+    ] {
+        for (kind, [one, other], parameters) in
+            [("STRNG", ["DB20.a", "DB20.b"], ["S1", "S2"]), ("DT", ["DB20.early", "DB20.late"], ["DT1", "DT2"])]
+        {
+            let call = |x: &str, y: &str, bit: u8| {
+                format!("CALL FC 100 ( {} := {x}, {} := {y}, RET_VAL := M 0.{bit} );", parameters[0], parameters[1])
+            };
+            let mut plc = plc(
+                &(two(&format!("{name}_{kind}")) + TEXTS),
+                &[call(one, other, 0), call(one, one, 1), call(other, one, 2)].concat(),
+            );
+            plc.scan();
+            assert_eq!([0, 1, 2].map(|bit| plc.bit(0, bit)), [less, equal, greater], "{name}_{kind}");
+        }
+    }
+    let blocks = declared(100, "LEN", "INT", "S : STRING;")
+        + &declared(101, "FIND", "INT", "IN1 : STRING; IN2 : STRING;")
+        + &declared(102, "SB_DT_DT", "TIME", "DT1 : DATE_AND_TIME; DT2 : DATE_AND_TIME;")
+        + &declared(103, "AD_DT_TM", "DATE_AND_TIME", "T : DATE_AND_TIME; D : TIME;")
+        + TEXTS;
+    let mut plc = plc(
+        &blocks,
+        "CALL FC 100 ( S := DB20.a, RET_VAL := MW 0 ); CALL FC 101 ( IN1 := DB20.a, IN2 := DB20.b, RET_VAL := MW 2 ); \
+        CALL FC 101 ( IN1 := DB20.b, IN2 := DB20.a, RET_VAL := MW 4 ); CALL FC 102 ( DT1 := DB20.late, DT2 := DB20.early, RET_VAL := MD 8 ); \
+        CALL FC 103 ( T := DB20.early, D := T#2S500MS, RET_VAL := DB20.d );",
+    );
+    plc.scan();
+    // From 23:59:59.000 to 0:00:01.500 are 2.5 s.
+    assert_eq!((plc.word(0), plc.word(2), plc.word(4), plc.double(8)), (5, 3, 0, 2500));
+    let data = plc.memory.data(20).unwrap();
+    // r has 10 bytes, before it d, before it late: 2000-1-1 was a Saturday (7).
+    let (late, d) = (&data[data.len() - 26..data.len() - 18], &data[data.len() - 18..data.len() - 10]);
+    assert_eq!((late, d), (&[0, 1, 1, 0, 0, 1, 0x50, 0x07][..], &[0, 1, 1, 0, 0, 1, 0x50, 0x07][..]));
+}
+
+#[test]
+fn bits_are_counted_encoded_and_decoded_and_one_of_two_is_selected() {
+    let blocks = declared(100, "BITSUM", "INT", "IN : DWORD;")
+        + &declared(101, "ENCO", "INT", "IN : DWORD;")
+        + &declared(102, "DECO", "DWORD", "IN : WORD;")
+        + &declared(103, "SEL", "ANY", "G : BOOL; IN0 : ANY; IN1 : ANY;")
+        + "DATA_BLOCK DB 20\nSTRUCT\na : INT := 1; b : INT := 2; c : INT; d : INT;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n";
+    let mut plc = plc(
+        &blocks,
+        "CALL FC 100 ( IN := DW#16#F0000101, RET_VAL := MW 0 ); CALL FC 101 ( IN := DW#16#80000100, RET_VAL := MW 2 ); \
+        CALL FC 102 ( IN := W#16#21, RET_VAL := MD 4 ); CALL FC 103 ( G := M 255.0, IN0 := DB20.a, IN1 := DB20.b, RET_VAL := DB20.c ); \
+        SET; = M 255.1; CALL FC 103 ( G := M 255.1, IN0 := DB20.a, IN1 := DB20.b, RET_VAL := DB20.d );",
+    );
+    plc.scan();
+    // Bit 33 is bit 1 of 32.
+    assert_eq!((plc.word(0), plc.word(2), plc.double(4)), (6, 8, 2));
+    assert_eq!(&plc.memory.data(20).unwrap()[4..], [0, 1, 0, 2]);
+}
+
+#[test]
+fn data_blocks_are_tested_and_modules_do_not_exist() {
+    let mut plc = plc(
+        "DATA_BLOCK DB 20\nSTRUCT\na : ARRAY [0 .. 2] OF INT;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n",
+        "\
+        CALL SFC 24 ( DB_NUMBER := W#16#14, RET_VAL := MW 0, DB_LENGTH := MW 2, WRITE_PROT := M 4.0 ); \
+        CALL SFC 24 ( DB_NUMBER := W#16#63, RET_VAL := MW 6, DB_LENGTH := MW 8, WRITE_PROT := M 4.1 ); \
+        SET; = M 4.2; CALL SFC 59 ( REQ := M 4.2, IOID := B#16#54, LADDR := W#16#100, RECNUM := B#16#1, RET_VAL := MW 10, BUSY := M 4.2, RECORD := P#M 20.0 BYTE 4 ); \
+        CALL SFC 18 ( SIG := M 4.0, ID := W#16#EEEE, EV_ID := DW#16#1, SD := P#M 20.0 BYTE 4, RET_VAL := MW 12 );",
+    );
+    plc.memory.flags[13] = 1;
+    plc.scan();
+    assert_eq!([0, 2, 6, 8, 10, 12].map(|byte| plc.word(byte)), [0, 6, 0x80B1, 0, 0x8090, 0]);
+    assert!(!plc.bit(4, 2));
+}
+
 #[test]
 fn a_block_of_the_sources_with_statements_stays() {
     let text = "FUNCTION FC 1 : INT\nNAME : LIMIT\nBEGIN\nL 3; T #RET_VAL;\nEND_FUNCTION\n";
