@@ -3,7 +3,7 @@
 use crate::control::{Owner, Value};
 use crate::image::ToNck;
 use crate::motion::path::{Feed, PATH_AXES, PathBlock, PerPathAxis, Way};
-use crate::nc_program::{Action, AxisIndex, Block, INCH, Prepared, ProgramAlarm, g};
+use crate::nc_program::{Action, AxisIndex, Block, INCH, Prepared, ProgramAlarm, g, groups};
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::exchange::programs::{Availability, availability, exchanges};
