@@ -2,10 +2,10 @@
 
 use super::channel::Member;
 use super::language::{AxisReference, AxisRequest, Conflicts, GantryTargets, PutTargets};
-use super::links::Refused;
 use super::messages;
 use super::pending::Detail;
-use super::program::value;
+use super::refused::Refused;
+use super::refused::value;
 use super::rules::Why;
 use super::state::{AxesView, State};
 use crate::units::AxisNumber;

@@ -2,9 +2,10 @@
 
 use super::channel::Modal;
 use super::language::Block;
-use super::links::Refused;
 use super::messages;
-use super::program::{Outcome, unknown, value};
+use super::program::Outcome;
+use super::refused::Refused;
+use super::refused::{unknown, value};
 use super::state::State;
 use crate::motion::path::{Circle, Feed, PATH_AXES, PathBlock, Refused as PathRefused, Turn, Way};
 use crate::units::{AxisNumber, Position};

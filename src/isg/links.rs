@@ -8,33 +8,15 @@ use super::messages;
 use super::parameters::{Clearing, GANTRY_BITS, length, velocity};
 use super::pending::{Detail, of_axis};
 use super::phases::LinkPhase;
-use super::program::{unknown, value};
+use super::refused::{Refused, unknown, value};
 use super::rules::Why;
 use super::state::{AxesView, AxisError, State};
 use crate::motion::coupling::{Coupling, Follower, Moves, OffsetSource, Realign, Sign, Target, TwoStage};
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
+use crate::variables::{EventId, Input, Place, Quantity};
 
 /// Coupling groups 0 to 6: 0 is of the channel list (SG-14).
 pub(super) const GROUPS: i64 = 7;
-
-/// A refused command: the message, and its third and fourth parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Refused(pub AlarmNumber, pub Detail, pub Detail);
-
-impl Refused {
-    pub(super) const fn new(number: AlarmNumber) -> Self {
-        Self(number, Detail::None, Detail::None)
-    }
-
-    pub(super) const fn axis(number: AlarmNumber, axis: AxisNumber) -> Self {
-        Self(number, Detail::Axis(axis), Detail::None)
-    }
-
-    pub(super) fn group(number: AlarmNumber, group: i64) -> Self {
-        Self(number, Detail::Number(group), Detail::None)
-    }
-}
 
 impl State {
     /// Defines a group (SG-01, SG-02, SG-14, SG-20).

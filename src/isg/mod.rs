@@ -49,6 +49,7 @@ mod pending;
 mod phases;
 mod program;
 mod publish;
+mod refused;
 mod rules;
 mod state;
 mod texts;

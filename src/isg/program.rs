@@ -7,9 +7,9 @@ use super::homing::job::Job;
 use super::language::{
     Block, Command, End, Environment, Fault, FaultCode, Prepared, Refusal, Variables, is_called, is_modelled,
 };
-use super::links::Refused;
 use super::messages;
 use super::pending::Detail;
+use super::refused::{Refused, unknown, value};
 use super::rules::Why;
 use super::state::State;
 use crate::nc_program::Program;
@@ -69,11 +69,6 @@ impl Environment for View<'_> {
 
 /// A block that is refused: the message, and its second to fourth parameter after the channel and the block.
 pub(super) type Outcome = Result<(), Refused>;
-
-/// A value that is not possible.
-pub(super) fn value(text: &str) -> Refused {
-    Refused(messages::NC_VALUE, Detail::Text(text.to_owned()), Detail::None)
-}
 
 impl State {
     /// One cycle of a program that runs.
@@ -429,9 +424,4 @@ impl State {
             }
         }
     }
-}
-
-/// An axis that the channel does not have.
-pub(super) fn unknown(name: &str) -> Refused {
-    Refused(messages::AXIS_UNKNOWN, Detail::Text(format!("the channel has no axis {name}")), Detail::None)
 }

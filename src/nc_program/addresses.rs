@@ -1,11 +1,12 @@
 //! Addresses of a block: positions, circles, feedrates, auxiliary functions.
 
 use super::alarm::{Fault, Span};
+use super::auxiliary::{AuxiliaryKind, judged_value};
 use super::composer::{Composer, UNKNOWN};
 use super::expression::Expression;
 use super::functions::g;
 use super::names::{AxisIndex, AxisKind};
-use super::prepared::{Action, AuxiliaryFunction, AuxiliaryKind, AxisWord, Centre, Dimension, End, predefined_group};
+use super::prepared::{Action, AuxiliaryFunction, AxisWord, Centre, Dimension, End, predefined_group};
 use super::syntax::{Address, AddressWord, Modifier};
 use super::value::Value;
 
@@ -340,26 +341,6 @@ impl Composer<'_> {
             None => Err(Fault::new(12400, at, "the axis in brackets is missing")),
         }
     }
-}
-
-/// Whether an auxiliary function can have a value: the number of its alarm and the reason if not. M, T and D are whole numbers.
-pub(super) fn judged_value(kind: AuxiliaryKind, value: f64) -> Result<(), (u32, String)> {
-    let is_real = matches!(kind, AuxiliaryKind::S | AuxiliaryKind::H | AuxiliaryKind::SumOffset | AuxiliaryKind::F);
-    if !is_real && value.fract() != 0.0 && !value.is_nan() {
-        return Err((12560, format!("{value} is no whole number")));
-    }
-    let (least, most) = match kind {
-        AuxiliaryKind::M => (0.0, f64::from(i32::MAX)),
-        AuxiliaryKind::T => (0.0, 65_535.0),
-        AuxiliaryKind::S | AuxiliaryKind::SumOffset => (0.0, f64::INFINITY),
-        AuxiliaryKind::D => (0.0, 255.0),
-        AuxiliaryKind::H | AuxiliaryKind::F => (f64::NEG_INFINITY, f64::INFINITY),
-    };
-    if value < least || value > most {
-        let number = if kind == AuxiliaryKind::D { 17180 } else { 12560 };
-        return Err((number, format!("{value} is outside {least} to {most}")));
-    }
-    Ok(())
 }
 
 /// The dimension of a position. QU belongs to auxiliary functions.

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use super::alarm::{Fault, Span};
+use super::auxiliary::AuxiliaryKind;
 use super::block::parse;
 use super::environment::Environment;
 use super::evaluate::evaluate;
 use super::expression::Expression;
 use super::head::word;
 use super::interpreter::{Stopped, Work, first_statement};
-use super::prepared::{AuxiliaryFunction, AuxiliaryKind};
+use super::prepared::AuxiliaryFunction;
 use super::scope::{Place, Running};
 use super::source::{Program, Request, normalised, requested};
 use super::state::{Interpreter, Level, Saved};

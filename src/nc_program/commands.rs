@@ -1,14 +1,15 @@
 //! Commands of a block, and synchronised actions.
 
-use super::addresses::{dimension, judged_value};
+use super::addresses::dimension;
 use super::alarm::{Fault, Span};
+use super::auxiliary::{AuxiliaryKind, judged_value};
 use super::composer::{Composer, UNKNOWN};
 use super::condition::{Condition, MainRunValue};
 use super::evaluate::{evaluate, frozen, system_indices};
 use super::expression::Expression;
 use super::names::AxisIndex;
 use super::operator::Operator;
-use super::prepared::{Action, AuxiliaryKind, CouplingKind, MainRunAction, SynchronisedAction};
+use super::prepared::{Action, CouplingKind, MainRunAction, SynchronisedAction};
 use super::syntax::{Address, AddressWord, Synchronised, SynchronisedWord};
 use super::value::Value;
 use super::vocabulary::Command;

@@ -1,11 +1,12 @@
 //! The words of a block become what it does: G functions first, then addresses and commands, then what fits together.
 
 use super::alarm::{Fault, Span};
+use super::auxiliary::AuxiliaryKind;
 use super::composer::{Before, Composed, Composer, UNKNOWN};
 use super::evaluate::Scope;
 use super::functions::{GFunction, INCH, g, groups, name};
 use super::names::{AxisIndex, AxisKind};
-use super::prepared::{Action, AuxiliaryKind, AxisWord};
+use super::prepared::{Action, AxisWord};
 use super::syntax::{Address, Word};
 
 /// What the words of a block do.

@@ -3,13 +3,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::addresses::judged_value;
 use super::alarm::{Fault, Span};
+use super::auxiliary::{AuxiliaryKind, judged_value};
 use super::environment::{Environment, SystemVariable, VariableRefusal};
 use super::evaluate::{Scope, Term, evaluate};
 use super::expression::Expression;
 use super::names::AxisNames;
-use super::prepared::AuxiliaryKind;
 use super::value::{Type, Value, integer};
 
 /// A condition.

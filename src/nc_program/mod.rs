@@ -38,6 +38,7 @@
 mod addresses;
 mod alarm;
 mod assign;
+mod auxiliary;
 mod block;
 mod call;
 mod check;
@@ -77,6 +78,7 @@ mod words;
 mod tests;
 
 pub use alarm::{Class, ProgramAlarm, numbers as alarm_numbers};
+pub use auxiliary::AuxiliaryKind;
 pub use check::{CheckFinding, check};
 pub use condition::{Condition, MainRunValue};
 pub use dialect::{Dialect, SINUMERIK};
@@ -85,8 +87,8 @@ pub use functions::{GFunction, INCH, Modal, g, groups, name as function_name};
 pub use names::{AxisIndex, AxisKind, AxisName, AxisNames};
 pub use operator::Operator;
 pub use prepared::{
-    Action, AuxiliaryFunction, AuxiliaryKind, AxisWord, Block, Centre, Circle, CouplingKind, Dimension, End,
-    MainRunAction, Origin, Prepared, SynchronisedAction, is_of_spindle, predefined_group,
+    Action, AuxiliaryFunction, AxisWord, Block, Centre, Circle, CouplingKind, Dimension, End, MainRunAction, Origin,
+    Prepared, SynchronisedAction, is_of_spindle, predefined_group,
 };
 pub use search::BlockTarget;
 pub use source::{Library, Program, ProgramKind, Request, normalised};

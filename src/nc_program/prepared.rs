@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::auxiliary::AuxiliaryKind;
 use super::condition::{Condition, MainRunValue};
 use super::functions::{GFunction, Modal};
 use super::names::AxisIndex;
@@ -136,25 +137,6 @@ impl Circle {
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
-}
-
-/// The kind of an auxiliary function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum AuxiliaryKind {
-    /// M
-    M,
-    /// S
-    S,
-    /// T
-    T,
-    /// D
-    D,
-    /// DL
-    SumOffset,
-    /// H
-    H,
-    /// F: of the path, or of an axis (FA).
-    F,
 }
 
 /// The predefined auxiliary function group of an M function: 1 stop and end, 2 spindle, 4 gear stage.

@@ -50,7 +50,7 @@ fn a_pair_of_one_axis_is_skipped() {
 #[test]
 fn an_axis_in_both_roles_is_skipped() {
     let started = channel(&format!("{}{}", pair(0, 2, 8), pair(1, 8, 9)));
-    assert_eq!((codes(&started.messages), pairs(&started)), (vec!["20442 1 9".to_owned()], vec![(0, 2, 8)]));
+    assert_eq!((codes(&started.messages), pairs(&started)), (vec!["20442 1 8".to_owned()], vec![(0, 2, 8)]));
     let reverse = channel(&format!("{}{}", pair(0, 8, 9), pair(1, 2, 8)));
     assert_eq!((codes(&reverse.messages), pairs(&reverse)), (vec!["20442 1 8".to_owned()], vec![(0, 8, 9)]));
 }
@@ -137,7 +137,8 @@ fn the_unit_of_the_feed_is_one_of_two() {
     ] {
         let started = channel(&format!("prog_start.feedrate_factor {value}\n"));
         assert_eq!(codes(&started.messages), Vec::from_iter(code), "{value}");
-        let of = &started.channels[0];
+        // An error leaves no channel.
+        let Some(of) = started.channels.first() else { continue };
         let used = of.value("P-CHAN-00108").and_then(crate::control::Value::number);
         let expected = if value == "0.1" { 0.1 } else { 100.0 };
         assert_eq!(used.map(|used| used.to_string()), Some(expected.to_string()), "{value}");

@@ -36,9 +36,12 @@ fn seen(plc: &mut Plc) -> Vec<(Named, Vec<(Named, bool)>)> {
     seen.iter().map(|seen| (seen.place, seen.tested.to_vec())).collect()
 }
 
+/// A network, the inputs I 0.0 to I 0.7, and the operands that decide with their values.
+type Case<'a> = (&'a str, u8, &'a [(Named, bool)]);
+
 #[test]
 fn the_decisive_operands_are_named() {
-    let cases: [(&str, u8, &[(Named, bool)]); 9] = [
+    let cases: [Case<'_>; 9] = [
         ("A I 0.0; AN I 0.1; = Q 0.0;", 0b001, &[(i(0), true), (i(1), false)]),
         ("O I 0.0; O I 0.1; = Q 0.0;", 0b010, &[(i(1), true)]),
         ("A I 0.0; A I 0.1; O; A I 0.2; = Q 0.0;", 0b110, &[(i(2), true)]),
