@@ -159,9 +159,9 @@ fn collect(path: &Path, above: &mut Vec<PathBuf>, files: &mut Vec<PathBuf>) -> R
     for entry in entries {
         let entry = entry.map_err(|error| unreadable(path, &error))?;
         let path = entry.path();
-        // A machine may be stored beside its scenarios.
-        let is_plant = path.file_name().is_some_and(|name| name == "plant.toml");
-        let is_toml = path.extension().is_some_and(|extension| extension == "toml") && !is_plant;
+        // A machine and a STEP 7 program may be stored beside their scenarios.
+        let is_other = path.file_name().is_some_and(|name| name == "plant.toml" || name == "plc.toml");
+        let is_toml = path.extension().is_some_and(|extension| extension == "toml") && !is_other;
         // A link that cannot be followed is a file that cannot be used; all others still run.
         if is_toml && std::fs::metadata(&path).is_err() {
             files.push(path);

@@ -30,7 +30,7 @@ pub struct Block {
     pub spindle: Option<f64>,
     /// Axes and their values; empty in a block with G04 or G74.
     pub axes: Vec<(String, f64)>,
-    /// The signs that stand directly behind the name of an axis, as in `C-90`: the direction of a modulo axis. They are in the values, too.
+    /// The signs that stand directly behind the name of an axis, as in `A-90`: the direction of a modulo axis. They are in the values, too.
     pub signs: Vec<(String, Sign)>,
     /// G74: axes and their place in the order. Equal numbers are homed together.
     pub homing: Vec<(String, u32)>,
@@ -49,7 +49,7 @@ pub struct Block {
 pub enum Sign {
     /// `C+90`
     Plus,
-    /// `C-90`
+    /// `A-90`
     Minus,
 }
 

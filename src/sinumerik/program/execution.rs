@@ -189,15 +189,6 @@ impl State {
         }
     }
 
-    /// DB31.DBX2.2: an axis that POS, POSA or a synchronised action positions brakes and drops the rest of its way.
-    fn delete_distance_to_go_of_axes(&mut self, run: &mut Run, stage: &Stage<'_>) {
-        let path = stage.own.axes.path.iter().copied();
-        let now: AxisSet = path.filter(|axis| stage.to_nck.axes[*axis].delete_distance_to_go_spindle_reset()).collect();
-        let rising = now.without(std::mem::replace(&mut run.axial_delete_were, now));
-        let positioned = run.positionings.iter().filter(|one| !one.is_rapid).map(|one| one.axis).collect();
-        run.axial_deleting = run.axial_deleting.with(rising).and(positioned);
-    }
-
     /// Whether something holds the change to the next block: read-in disable, also by RDISABLE, single block, NC stop at the block limit.
     pub(super) fn holds_block_change(&self, run: &Run, stage: &Stage<'_>) -> bool {
         let signals = &stage.to_nck.channels[stage.channel];

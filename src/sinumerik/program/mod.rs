@@ -44,6 +44,7 @@
 
 pub(super) mod actions;
 pub(super) mod auxiliary;
+mod axial_deletion;
 pub(super) mod control;
 pub(super) mod coordination;
 pub(super) mod ending;

@@ -358,9 +358,7 @@ impl State {
                 run.axial_deleting.set(axis, false);
                 run.commanded.set(axis, true);
                 run.commanded_arrived = true;
-                let delete = axis_signal(axis, axis_to_nck::delete_distance_to_go_spindle_reset, true);
-                let cause = self.log.note_one(Place::Axis(axis), Rule::DistanceDeleted, delete, run.block_cause);
-                self.travel(axis, Travel::None, cause);
+                self.travel(axis, Travel::None, run.axial_delete_causes[axis]);
                 continue;
             }
             if arrived && in_position {

@@ -13,7 +13,7 @@ use crate::sinumerik::program::executable::StateBehind;
 use crate::sinumerik::program::state::{Phase, Preparation, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber};
+use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber, PerAxis};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text};
 
 use std::collections::VecDeque;
@@ -232,6 +232,7 @@ impl State {
             resetting: None,
             delete_was: false,
             axial_delete_were: AxisSet::NONE,
+            axial_delete_causes: PerAxis::default(),
             axial_deleting: AxisSet::NONE,
             deleting: false,
             reads_again: false,

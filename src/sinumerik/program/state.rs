@@ -14,7 +14,7 @@ use crate::sinumerik::program::executable::{Executable, ReadBlock, StateBehind};
 use crate::sinumerik::program::main_run::MainRun;
 use crate::sinumerik::program::positioning::AxisPositioning;
 use crate::sinumerik::program::search_state::Search;
-use crate::units::{AxisNumber, AxisSet, ChannelNumber, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
 use crate::variables::{AlarmNumber, BlockName, EventId, Parameter};
 
 /// 35.0 to 35.4.
@@ -332,6 +332,8 @@ pub(in crate::sinumerik) struct Run {
     pub axial_delete_were: AxisSet,
     /// The axes on their own ways that brake and drop the rest.
     pub axial_deleting: AxisSet,
+    /// The events of their signals.
+    pub axial_delete_causes: PerAxis<EventId>,
     /// The rest of the block is dropped when the path is at rest.
     pub deleting: bool,
     /// NC start has cancelled the alarm of a block.

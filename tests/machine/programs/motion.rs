@@ -70,8 +70,8 @@ fn continuous_path_mode_passes_block_ends_and_exact_stop_does_not() {
     let blocks: String = (1..=20).map(|number| format!("X{}\n", number * 2)).collect();
     let continuous = duration(&format!("G64 G1 F6000\n{blocks}M30"));
     let exact = duration(&format!("G60 G1 F6000\n{blocks}M30"));
-    // 40 mm at 100 mm/s are 0.4 s, and 0.05 s for the ramps.
-    assert!((0.44..0.56).contains(&continuous), "{continuous}");
+    // 40 mm at 100 mm/s are 0.4 s, 0.05 s for the ramps, and at most 0.15 s for the exact stop before M30.
+    assert!((0.44..0.60).contains(&continuous), "{continuous}");
     assert!(exact > 20.0 * 0.1, "{exact}");
 }
 
