@@ -8,6 +8,7 @@ use crate::control::Texts;
 use crate::controls;
 use crate::controls::documented::{Decision, RuleRow, contains, decisions, rules, without_row};
 use crate::source::{Problem, did_you_mean};
+use crate::variables::AlarmNumber;
 
 /// A rule and a scenario that cites it in `covers`, or an alarm and a scenario whose golden trace has it; one pair a line. A test compares
 /// this file with the scenarios.
@@ -114,7 +115,10 @@ fn entry(id: &str) -> Option<Entry> {
         let (id, source) = (id.to_uppercase(), "docs/decisions.md".to_owned());
         return Some(Entry { id, text, source, decisions: Vec::new(), scenarios: Vec::new() });
     }
-    let alarm = controls::texts().flat_map(Texts::alarms).find(|alarm| alarm.name == id)?;
+    let listed = controls::texts().flat_map(Texts::alarms).find(|alarm| alarm.name == id);
+    // Numbers that programs choose (SETAL) are in no list.
+    let chosen = || controls::texts().find_map(|texts| texts.alarm(AlarmNumber(id.parse().ok()?)));
+    let alarm = listed.or_else(chosen)?;
     let raised = if alarm.raised { "" } else { " The model does not raise it yet." };
     let text =
         format!("Alarm: {}. Cleared by {}; reactions: {}.{raised}", alarm.text, alarm.cancelled_by, alarm.reaction);

@@ -380,6 +380,12 @@ impl Look<'_> {
     pub(super) fn not_held(self, unit: &Unit) -> Condition {
         let mut all = vec![self.not_disabled(unit.channel, channel_to_nck::feed_disable, UserReaction::Feed)];
         all.extend(unit.members().map(|axis| self.axis(axis, axis_to_nck::feed_stop, false)));
+        if self.state.axes[unit.leader()].approach.stopped.is_some() {
+            // C-76: NC stop holds an approach in JOG until NC start.
+            all.push(self.channel(unit.channel, channel_to_nck::nc_stop, false));
+            all.push(self.channel(unit.channel, channel_to_nck::nc_stop_axes_plus_spindles, false));
+            all.push(self.channel(unit.channel, channel_to_nck::nc_start, true));
+        }
         match self.not_held_by_program(unit) {
             Some(by_program) => all.extend(by_program),
             None => all.push(self.override_acts(unit.leader())),
