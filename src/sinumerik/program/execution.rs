@@ -87,6 +87,10 @@ impl Nck {
         for start in starts {
             state.start_by_program(start, parameters, &self.programs, to_nck);
         }
+        // POS of a synchronised action may have woken an axis that rested.
+        let runs = parameters.existing_channels().filter_map(|(channel, _)| state.programs[channel].run.as_deref());
+        let positioned = runs.flat_map(|run| &run.positionings).map(|one| one.axis).collect();
+        self.resting.decide_now(positioned, &state.units);
         self.resting.hear_all(state.exchanged_axes(parameters));
         for (target, value) in written {
             // The environment has checked it.

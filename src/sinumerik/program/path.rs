@@ -358,7 +358,9 @@ impl State {
                 run.axial_deleting.set(axis, false);
                 run.commanded.set(axis, true);
                 run.commanded_arrived = true;
-                self.travel(axis, Travel::None, run.axial_delete_causes[axis]);
+                let (place, parent) = (Place::Axis(axis), run.axial_delete_causes[axis]);
+                let event = self.log.now(place, parent, Rule::BlockMotionEnds, [Input::None; 3]);
+                self.travel(axis, Travel::None, event);
                 continue;
             }
             if arrived && in_position {
