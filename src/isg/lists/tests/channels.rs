@@ -135,16 +135,15 @@ fn the_unit_of_the_feed_is_one_of_two() {
         ("1", Some("P-CHAN-00108 3 -")),
         ("1000", Some("P-CHAN-00108 3 -")),
     ] {
-        let started = channel(&format!("prog_start.feedrate_factor {value}\n"));
+        let started = channel(&format!("grp_anzahl 1\nprog_start.feedrate_factor {value}\n"));
         assert_eq!(codes(&started.messages), Vec::from_iter(code), "{value}");
-        // An error leaves no channel.
-        let Some(of) = started.channels.first() else { continue };
+        let of = &started.channels[0];
         let used = of.value("P-CHAN-00108").and_then(crate::control::Value::number);
         let expected = if value == "0.1" { 0.1 } else { 100.0 };
         assert_eq!(used.map(|used| used.to_string()), Some(expected.to_string()), "{value}");
         assert_eq!(of.is_feed_in_m_per_minute, value == "0.1", "{value}");
     }
-    let zero = channel("prog_start.feedrate_factor 0\n");
-    let text = "found 0, allowed 0.1 (F in m/min) or 100 (F in mm/min), used 100 (channel.lis:1)";
+    let zero = channel("grp_anzahl 1\nprog_start.feedrate_factor 0\n");
+    let text = "found 0, allowed 0.1 (F in m/min) or 100 (F in mm/min), used 100 (channel.lis:2)";
     assert!(zero.messages[0].text.ends_with(text), "{}", zero.messages[0].text);
 }
