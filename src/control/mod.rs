@@ -2,9 +2,9 @@
 //!
 //! `tests/machine/second_control/platform.rs` is a tiny control of 32 drives that implements this whole module. Start with a copy of it.
 //!
-//! [`Control`] is the trait that the machine steps. A control provides everything specific to it: the interface ([`Interface`]), signals,
-//! machine data, alarms, rules, and charts of its state machines. Only the control's own module and the one place that opens machines name
-//! a specific control.
+//! [`Control`] is the trait that the machine steps. A control provides everything specific to it: the interface
+//! ([`Interface`](crate::image::Interface)), signals, machine data, alarms, rules, and charts of its state machines. Only the control's own
+//! module and the one place that opens machines name a specific control.
 //!
 //! The machine calls a control in this order, once per interpolation cycle:
 //!
