@@ -403,7 +403,7 @@ impl Parser<'_> {
     /// The problem of an unknown name: what it looks like, and the nearest known name of this kind.
     fn unknown(&self, name: &str, column: usize, no_signal: Problem) -> Problem {
         let names = self.scope.describe().names();
-        let values = AxisValue::ALL.map(AxisValue::name);
+        let values = AxisValue::names(names.interface());
         let at = format!("at character {column} of `{}`", excerpt(self.source, column));
         if let Some((head, tail)) = name.rsplit_once('.') {
             let near_value = nearest(tail, NamedValue::names_of_channel()).filter(|_| names.channel(head).is_some());

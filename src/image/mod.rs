@@ -53,7 +53,7 @@ mod tests;
 
 pub use address::{Address, Area, Width};
 pub use bytes::{Bytes, PartBytes};
-pub use interface::{BlockTable, ByteRange, ByteSignals, Interface, Override, SwitchSignals, Tables};
+pub use interface::{BlockTable, ByteRange, ByteSignals, Interface, Override, SwitchSignals, Tables, ValueTerms};
 pub use layout::{AsBytes, Layout, View};
 pub use location::{Format, Location, Part};
 pub use memory::{Blocks, DataBlock, Memory, Parts};

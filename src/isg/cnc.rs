@@ -333,6 +333,11 @@ impl Control for Cnc {
         self.0.channels.iter().any(|one| one.number == channel)
     }
 
+    fn motor_speed(&self, axis: AxisNumber, velocity: f64) -> f64 {
+        // Of a rotary axis the velocity is in degrees/min.
+        if self.0.axes[axis].parameters.is_rotary { velocity / 360.0 } else { velocity }
+    }
+
     fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
         self.0.axes[axis].exists.then_some(0)
     }

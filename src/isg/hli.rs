@@ -9,7 +9,9 @@
 
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
-use crate::image::{Block, BlockTable, ByteRange, Interface, Layout, Numbering, Part, Tables, Unit, Window};
+use crate::image::{
+    Block, BlockTable, ByteRange, Interface, Layout, Numbering, Part, Tables, Unit, ValueTerms, Window,
+};
 use crate::signals;
 use crate::units::{PerAxis, PerChannel};
 
@@ -271,6 +273,13 @@ pub static HLI: Interface = Interface::new(Tables {
     units: UNITS,
     named_in: "kopf.achs_nr, kopf.log_achs_name and gruppe[0].achse[i].bezeichnung in the parameter lists",
     example: "ax1.homed",
+    values: ValueTerms {
+        difference: "gantry_difference",
+        difference_meaning: "Actual value of a slave minus that of its master minus the offset, in mm or degrees.",
+        velocity_meaning: "Actual velocity, in mm/min or degrees/min, as F.",
+        rotary_velocity: "\u{b0}/min",
+        rotary_velocity_degrees: 1.0,
+    },
 });
 
 /// The layout of the parts: the structures above.

@@ -3,7 +3,7 @@
 use super::Trace;
 use super::history::ProgramRow;
 use super::printable::signal_name;
-use crate::image::Names;
+use crate::image::{Interface, Names};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, six_decimals};
 
@@ -41,7 +41,7 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             Some(format!("{}[{index},{}] = {value}", describe.datum_name(number), axis_name(axis, names)))
         }
         Input::Length(quantity, axis, length) => {
-            let (name, value) = input_name(quantity, length, per_turn(axis, describe));
+            let (name, value) = input_name(quantity, length, per_turn(axis, describe), names.interface());
             let axis = axis_name(axis, names);
             Some(format!("{axis}.{name} = {}", six_decimals(value)))
         }
@@ -51,17 +51,23 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
     }
 }
 
-/// The distance that a unit of the displayed velocity of an axis stands for: rev/min of a rotary axis are 360 degrees/min.
+/// The distance that a unit of the displayed velocity of an axis stands for: where a rotary axis shows rev/min, 360 degrees.
 pub(super) fn per_turn(axis: AxisNumber, describe: &dyn Describe) -> f64 {
-    if describe.is_rotary(axis) { 360.0 } else { 1.0 }
+    if describe.is_rotary(axis) { describe.names().interface().values().rotary_velocity_degrees } else { 1.0 }
 }
 
 /// The name of a length, and its value in user units.
-pub(super) fn input_name(quantity: Quantity, length: Position, per_turn: f64) -> (&'static str, f64) {
+pub(super) fn input_name(
+    quantity: Quantity,
+    length: Position,
+    per_turn: f64,
+    interface: &Interface,
+) -> (&'static str, f64) {
+    let name = |value: AxisValue| value.name(interface);
     match quantity {
-        Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
-        Quantity::Position => (AxisValue::Position.name(), length.user()),
-        Quantity::Setpoint => (AxisValue::Setpoint.name(), length.user()),
+        Quantity::SynchronismDifference => (name(AxisValue::SynchronismDifference), length.user()),
+        Quantity::Position => (name(AxisValue::Position), length.user()),
+        Quantity::Setpoint => (name(AxisValue::Setpoint), length.user()),
         Quantity::Target => ("target", length.user()),
         Quantity::ZeroMark => ("zero_mark", length.user()),
         Quantity::Deviation => ("deviation", length.user()),
@@ -69,10 +75,10 @@ pub(super) fn input_name(quantity: Quantity, length: Position, per_turn: f64) ->
         Quantity::ZeroMarkDeviation => ("zero_mark_deviation", length.user()),
         Quantity::Base => ("base", length.user()),
         Quantity::Sag => ("sag", length.user()),
-        Quantity::SetpointCompensation => (AxisValue::SetpointCompensation.name(), length.user()),
+        Quantity::SetpointCompensation => (name(AxisValue::SetpointCompensation), length.user()),
         Quantity::Distance => ("distance", length.user()),
-        // Events contain mm or degrees per second; all texts show mm/min or rev/min, as the values of the axis.
-        Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0 / per_turn),
+        // Events contain mm or degrees per second; all texts show the unit of the values of the axis.
+        Quantity::Velocity => (name(AxisValue::Velocity), length.user() * 60.0 / per_turn),
         Quantity::VelocityCommand => ("velocity_command", length.user() * 60.0 / per_turn),
     }
 }

@@ -62,7 +62,7 @@ impl CauseInput {
                 Self::Datum(format!("{number}[{index},{}]", place_name(Place::Axis(axis), names)), value)
             }
             Input::Length(quantity, axis, length) => {
-                let (name, value) = input_name(quantity, length, per_turn(axis, describe));
+                let (name, value) = input_name(quantity, length, per_turn(axis, describe), names.interface());
                 Self::Value(format!("{}.{name}", place_name(Place::Axis(axis), names)), six_decimals(value))
             }
             Input::Fault(fault) => Self::Fault(fault.name().to_owned()),

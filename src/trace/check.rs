@@ -16,7 +16,7 @@
 //! | `synchronism_difference`, `setpoint_compensation` | the same value | half an increment |
 //! | `deviation` | ± following error, or the difference of the two encoders | half an increment |
 //! | `zero_mark` | the middle of the way of the cycle | 1.5 times this way, and an increment |
-//! | `velocity` | actual velocity | 60 increments/min, of a rotary axis / 360, because it is in rev/min |
+//! | `velocity` | actual velocity | 60 increments/min, of a rotary axis / 360 where it is in rev/min |
 //! | | way of the setpoint in the cycle / cycle time T | 60 (1 + 1 s/T) increments/min likewise, because its ends are whole increments |
 //!
 //! An increment is a millionth of a mm or degree. `base`, `distance` (travelled), `velocity_command`, `contour_deviation`,
@@ -225,7 +225,7 @@ impl Trace {
         let per_turn = per_turn(axis, describe);
         let cycle = self.time(event.cycle) - self.time(event.cycle.saturating_sub(1));
         let possible = possible(quantity, values, per_turn, describe.half_count(axis), cycle)?;
-        let (name, named) = input_name(quantity, length, per_turn);
+        let (name, named) = input_name(quantity, length, per_turn, describe.names().interface());
         let found = possible.first()?.value;
         let is_true = possible.into_iter().any(|possible| possible.is(named));
         let name = format!("{}.{name}", axis_name(axis, describe.names()));

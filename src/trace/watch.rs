@@ -154,7 +154,7 @@ impl Chosen {
             return Ok(());
         }
         if step.is_some() {
-            let values = AxisValue::ALL.map(AxisValue::name).join(", ");
+            let values = AxisValue::names(names.interface()).join(", ");
             return Err(Problem::new(
                 format!("expected the value of a machine axis for a step, found `{entry}`"),
                 format!(
@@ -209,7 +209,7 @@ fn is_broad(pattern: &str) -> bool {
 fn nearest_value(problem: Problem, entry: &str, names: &Names) -> Problem {
     let near = entry.rsplit_once('.').and_then(|(head, tail)| {
         if names.axis(head).is_some() {
-            return Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?));
+            return Some((head, nearest(tail, AxisValue::names(names.interface()))?));
         }
         names.channel(head)?;
         Some((head, nearest(tail, NamedValue::names_of_channel())?))

@@ -210,13 +210,14 @@ impl Trace {
 pub(super) fn described(value: NamedValue, describe: &dyn Describe) -> (String, &'static str, super::printable::Order) {
     match value {
         NamedValue::Axis(axis, value) => {
+            let interface = describe.names().interface();
             let unit = match (value, describe.is_rotary(axis)) {
                 (AxisValue::Velocity, false) => "mm/min",
-                (AxisValue::Velocity, true) => "rev/min",
+                (AxisValue::Velocity, true) => interface.values().rotary_velocity,
                 (_, false) => "mm",
                 (_, true) => "\u{b0}",
             };
-            (value.name().to_owned(), unit, (value as u8, 0, 0, 0))
+            (value.name(interface).to_owned(), unit, (value as u8, 0, 0, 0))
         }
         NamedValue::Block(_) => ("block".to_owned(), "", (0, 0, 0, 0)),
         NamedValue::Program(_) => ("program".to_owned(), "", (1, 0, 0, 0)),

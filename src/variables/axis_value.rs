@@ -1,8 +1,8 @@
-//! Axis values in addition to signals, with their names in scenarios and traces: `X.position`, `XF.synchronism_difference`.
-
-use std::fmt;
+//! Axis values in addition to signals, with their names in scenarios and traces: `X.position`, `XF.synchronism_difference`. The difference of
+//! a coupled axis has the name that its control uses.
 
 use super::Variables;
+use crate::image::Interface;
 use crate::units::AxisNumber;
 
 /// A value of a machine axis that is not a signal.
@@ -12,13 +12,13 @@ pub enum AxisValue {
     Position,
     /// Setpoint, in mm or degrees.
     Setpoint,
-    /// Actual velocity, in mm/min or rev/min.
+    /// Actual velocity, in mm/min; of a rotary axis in the unit of its control.
     Velocity,
     /// Setpoint minus actual value, in mm or degrees.
     FollowingError,
     /// True position of the simulated slide, in mm or degrees.
     Slide,
-    /// Actual value minus ideal position of a synchronous axis, in mm or degrees.
+    /// Actual value minus ideal position of a coupled axis, in mm or degrees.
     SynchronismDifference,
     /// Actual value of encoder 1, in mm or degrees, active or not.
     Encoder1,
@@ -48,16 +48,16 @@ impl AxisValue {
         Self::SetpointCompensation,
     ];
 
-    /// The name after the axis name.
+    /// The name after the axis name, on a control with this interface.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub const fn name(self, interface: &Interface) -> &'static str {
         match self {
             Self::Position => "position",
             Self::Setpoint => "setpoint",
             Self::Velocity => "velocity",
             Self::FollowingError => "following_error",
             Self::Slide => "slide",
-            Self::SynchronismDifference => "synchronism_difference",
+            Self::SynchronismDifference => interface.values().difference,
             Self::Encoder1 => "encoder_1",
             Self::Encoder2 => "encoder_2",
             Self::DistanceToGo => "distance_to_go",
@@ -66,16 +66,22 @@ impl AxisValue {
         }
     }
 
-    /// What it is, with its unit.
+    /// The names of all values, on a control with this interface.
     #[must_use]
-    pub const fn meaning(self) -> &'static str {
+    pub fn names(interface: &Interface) -> [&'static str; 11] {
+        Self::ALL.map(|value| value.name(interface))
+    }
+
+    /// What it is, with its unit, on a control with this interface.
+    #[must_use]
+    pub const fn meaning(self, interface: &Interface) -> &'static str {
         match self {
             Self::Position => "Displayed actual value, in mm or degrees.",
             Self::Setpoint => "Setpoint, in mm or degrees.",
-            Self::Velocity => "Actual velocity, in mm/min or rev/min.",
+            Self::Velocity => interface.values().velocity_meaning,
             Self::FollowingError => "Setpoint minus actual value, in mm or degrees.",
             Self::Slide => "True position of the simulated slide, in mm or degrees.",
-            Self::SynchronismDifference => "Actual value minus ideal position of a synchronous axis, in mm or degrees.",
+            Self::SynchronismDifference => interface.values().difference_meaning,
             Self::Encoder1 => "Actual value of encoder 1, in mm or degrees, active or not.",
             Self::Encoder2 => "Actual value of encoder 2, in mm or degrees, active or not.",
             Self::DistanceToGo => "Remaining distance of a movement with a target, in mm or degrees, with sign.",
@@ -88,12 +94,23 @@ impl AxisValue {
         }
     }
 
-    /// The value with this name.
+    /// The value with this name. The difference of a coupled axis has one value and a name on each control, and both are read.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        // What a control with masters and slaves calls the same value.
-        let name = if name == "gantry_difference" { "synchronism_difference" } else { name };
-        Self::ALL.into_iter().find(|value| value.name() == name)
+        Some(match name {
+            "position" => Self::Position,
+            "setpoint" => Self::Setpoint,
+            "velocity" => Self::Velocity,
+            "following_error" => Self::FollowingError,
+            "slide" => Self::Slide,
+            "synchronism_difference" | "gantry_difference" => Self::SynchronismDifference,
+            "encoder_1" => Self::Encoder1,
+            "encoder_2" => Self::Encoder2,
+            "distance_to_go" => Self::DistanceToGo,
+            "encoder_compensation" => Self::EncoderCompensation,
+            "setpoint_compensation" => Self::SetpointCompensation,
+            _ => return None,
+        })
     }
 
     /// The value of this axis now.
@@ -116,12 +133,6 @@ impl AxisValue {
     }
 }
 
-impl fmt::Display for AxisValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
 /// Formats with six decimals; a zero has no minus sign.
 #[must_use]
 pub fn six_decimals(value: f64) -> String {
@@ -132,11 +143,12 @@ pub fn six_decimals(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::SINUMERIK;
 
     #[test]
     fn only_the_name_of_a_value_is_found() {
-        for value in AxisValue::ALL {
-            assert_eq!(AxisValue::named(value.name()), Some(value));
+        for (value, name) in AxisValue::ALL.into_iter().zip(AxisValue::names(&SINUMERIK)) {
+            assert_eq!(AxisValue::named(name), Some(value));
         }
         assert_eq!(AxisValue::named("Position"), None);
     }

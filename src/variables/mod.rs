@@ -35,7 +35,7 @@ pub struct AxisValues {
     pub position: Position,
     /// Setpoint in the machine coordinate system.
     pub setpoint: Position,
-    /// Actual velocity in mm/min or rev/min.
+    /// Actual velocity in mm/min; of a rotary axis in the unit of the control.
     pub velocity: f64,
     /// Setpoint minus actual value.
     pub following_error: Position,

@@ -59,7 +59,9 @@ impl NamedValue {
     pub fn name(self, names: &Names) -> String {
         let of_channel = |channel| place_name(Place::Channel(channel), names);
         match self {
-            Self::Axis(axis, value) => format!("{}.{value}", place_name(Place::Axis(axis), names)),
+            Self::Axis(axis, value) => {
+                format!("{}.{}", place_name(Place::Axis(axis), names), value.name(names.interface()))
+            }
             Self::Block(channel) => format!("{}.block", of_channel(channel)),
             Self::Program(channel) => format!("{}.program", of_channel(channel)),
             Self::RParameter(ChannelNumber::FIRST, number) => format!("R{number}"),

@@ -10,7 +10,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 use opennck::image::mapped::{Look, MappedImage, PlcImage, Rules, State, Step};
 use opennck::image::{
     Area, AsBytes, Block, BlockTable, ByteRange, Interface, Layout, Memory, Names, Numbering, OverrideCoding, Part,
-    Preset, Profile, SINUMERIK, Tables, Window, Writer,
+    Preset, Profile, SINUMERIK, Tables, ValueTerms, Window, Writer,
 };
 use opennck::plc::{PlcIo, PlcProgram, enable_all, program_for};
 use opennck::s7::Directory;
@@ -115,6 +115,7 @@ static OWN: Interface = Interface::new(Tables {
     units: &[],
     named_in: "the list of drives",
     example: "A1.power",
+    values: ValueTerms::SINUMERIK,
 });
 
 /// The parts as the structures above.

@@ -179,13 +179,14 @@ impl Catalogue {
     fn values(&self) -> Vec<Row> {
         let axes = self.names.axes.iter().filter_map(|(_, name)| name.as_deref());
         let of_axis = |axis: &str| {
+            let interface = self.names.interface();
             AxisValue::ALL.map(|value| Row {
-                name: value.name(),
+                name: value.name(interface),
                 cells: [
                     "value".to_owned(),
-                    format!("{axis}.{value}"),
+                    format!("{axis}.{}", value.name(interface)),
                     "nck".to_owned(),
-                    value.meaning().to_owned(),
+                    value.meaning(interface).to_owned(),
                     "yes".to_owned(),
                 ],
             })

@@ -8,7 +8,7 @@ use super::{
     ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck, UserAlarmsToNck, UserFromNck, axis_to_nck,
     channel_to_nck, places, profiles,
 };
-use crate::image::{Interface, Layout, Memory, Override, Profile, SwitchSignals, Tables};
+use crate::image::{Interface, Layout, Memory, Override, Profile, SwitchSignals, Tables, ValueTerms};
 
 /// The interface of the SINUMERIK: one NCK, two mode groups, ten channels, 31 axes.
 pub static SINUMERIK: Interface = Interface::new(Tables {
@@ -55,6 +55,7 @@ pub static SINUMERIK: Interface = Interface::new(Tables {
     units: &[],
     named_in: "MD10000, MD20000",
     example: "X.controller_enable",
+    values: ValueTerms::SINUMERIK,
 });
 
 /// The parts as the structures of the SINUMERIK.

@@ -117,9 +117,8 @@ impl State {
         AxisValues {
             position,
             setpoint: axis.shown(axis.setpoint.position),
-            // mm/min, or rev/min of a rotary axis.
-            velocity: axis.feedback.velocity / Position::PER_USER_UNIT * 60.0
-                / if axis.parameters.is_rotary { 360.0 } else { 1.0 },
+            // mm/min or degrees/min, as F.
+            velocity: axis.feedback.velocity / Position::PER_USER_UNIT * 60.0,
             following_error: axis.following_error(),
             slide: axis.feedback.slide,
             synchronism_difference: hard.chain(soft).find_map(difference).unwrap_or(Position::ZERO),

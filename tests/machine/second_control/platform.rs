@@ -11,8 +11,8 @@ use opennck::control::{
     Data, Datum, Kind, Log, Opened, Owner, PlcSide, Settings, Site, Taken, Texts, Transition, Value, next, row,
 };
 use opennck::image::{
-    Block, BlockTable, ByteRange, Interface, Layout, Names, Numbering, OverrideCoding, Part, Profile, Tables, View,
-    Window,
+    Block, BlockTable, ByteRange, Interface, Layout, Names, Numbering, OverrideCoding, Part, Profile, Tables,
+    ValueTerms, View, Window,
 };
 use opennck::motion::{Feedback, Setpoint, velocity_command};
 use opennck::signals;
@@ -122,6 +122,7 @@ static OWN: Interface = Interface::new(Tables {
     units: &[],
     named_in: "the list of drives",
     example: "A1.power",
+    values: ValueTerms::SINUMERIK,
 });
 
 /// The layout of the parts: the structures above.
