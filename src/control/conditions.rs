@@ -4,7 +4,7 @@
 //! signals and over facts of its own state ([`Control::conditions`](super::Control::conditions)). The reader looks up the signals in the
 //! memory and asks again for those that the control writes itself.
 
-use crate::image::Names;
+use crate::image::{Names, Signal};
 use crate::variables::{Place, SignalBit};
 
 /// A question to a control: what must hold so that a bit of its part has this value?
@@ -65,6 +65,61 @@ impl Fact {
         }
         Condition::Fact(self)
     }
+}
+
+/// What the conditions of a control are computed from: its state after a cycle, and what it read.
+pub trait Looks {
+    /// It, for as long as the state is borrowed.
+    type At<'a>: Copy;
+}
+
+/// The conditions of a signal: those for 1, and those for 0 if they are not the opposite.
+pub struct Row<L: Looks, Owner: 'static> {
+    /// The signal.
+    pub signal: Signal,
+    set: fn(L::At<'_>, Owner) -> Condition,
+    reset: Option<fn(L::At<'_>, Owner) -> Condition>,
+}
+
+impl<L: Looks, Owner> Row<L, Owner> {
+    /// A signal that is 0 exactly if these conditions for 1 do not hold.
+    #[must_use]
+    pub const fn new(signal: Signal, set: fn(L::At<'_>, Owner) -> Condition) -> Self {
+        Self { signal, set, reset: None }
+    }
+
+    /// A signal that is reset by other conditions than those that set it.
+    #[must_use]
+    pub const fn with(
+        signal: Signal,
+        set: fn(L::At<'_>, Owner) -> Condition,
+        reset: fn(L::At<'_>, Owner) -> Condition,
+    ) -> Self {
+        Self { signal, set, reset: Some(reset) }
+    }
+
+    /// The conditions of the bit that a question is about; `None` if no row has it.
+    #[must_use]
+    pub fn find(rows: &[Self], look: L::At<'_>, owner: Owner, question: &Question<'_>) -> Option<Condition> {
+        let is_meant = |row: &&Self| (row.signal.byte, row.signal.bit) == (question.byte, question.bit);
+        let row = rows.iter().find(is_meant)?;
+        Some(match (question.wanted, row.reset) {
+            (true, _) => (row.set)(look, owner),
+            (false, Some(reset)) => reset(look, owner),
+            (false, None) => (row.set)(look, owner).opposite(),
+        })
+    }
+}
+
+/// "Yes" or "no".
+#[must_use]
+pub const fn yes(holds: bool) -> &'static str {
+    if holds { "yes" } else { "no" }
+}
+
+/// A fact that is true or false.
+pub fn fact(what: impl Into<String>, holds: bool) -> Fact {
+    Fact::new(what, yes(holds), "yes", holds)
 }
 
 impl From<Fact> for Condition {

@@ -26,7 +26,7 @@ mod texts;
 mod transitions;
 mod value;
 
-pub use conditions::{Condition, Fact, Question};
+pub use conditions::{Condition, Fact, Looks, Question, Row, fact, yes};
 pub use data::{Data, Datum, Owner};
 pub use finding::{Class, Finding, summary};
 pub use log::Log;

@@ -1,7 +1,7 @@
 //! Conditions of the signals of an axis: enables, homing, position, errors, coupling.
 
-use super::look::{Look, Row, fact, length, of_axis, yes};
-use crate::control::{Condition, Fact};
+use super::look::{Look, Row, length, of_axis};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::isg::channel::{Channel, Wait};
 use crate::isg::hli::{axis_from_cnc, axis_to_cnc};
 use crate::isg::parameters::Clearing;

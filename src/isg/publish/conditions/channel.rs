@@ -1,7 +1,7 @@
 //! Conditions of the signals of a channel: its program, and its error state.
 
-use super::look::{Look, Row, fact, of_axis, of_channel, yes};
-use crate::control::{Condition, Fact};
+use super::look::{Look, Row, of_axis, of_channel};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::isg::channel::{Channel, Task, Wait};
 use crate::isg::hli::{axis_from_cnc, channel_from_cnc, channel_to_cnc};
 use crate::units::AxisNumber;

@@ -1,6 +1,6 @@
 //! What conditions are computed from, and parts of many conditions.
 
-use crate::control::{Condition, Fact, Question};
+use crate::control::{self, Condition, Looks, fact};
 use crate::image::{Names, Signal};
 use crate::isg::channel::Channel;
 use crate::isg::inputs::bit_of;
@@ -15,44 +15,15 @@ pub(super) struct Look<'a> {
     pub(super) names: &'a Names,
 }
 
-/// The conditions for 1, and those for 0 if they are not the opposite.
-pub(super) struct Row<Owner: 'static> {
-    pub(super) signal: Signal,
-    pub(super) set: fn(Look<'_>, Owner) -> Condition,
-    pub(super) reset: Option<fn(Look<'_>, Owner) -> Condition>,
+/// The conditions of this control.
+pub(super) struct Conditions;
+
+impl Looks for Conditions {
+    type At<'a> = Look<'a>;
 }
 
-impl<Owner> Row<Owner> {
-    /// A signal that is 0 exactly if these conditions for 1 do not hold.
-    pub(super) const fn new(signal: Signal, set: fn(Look<'_>, Owner) -> Condition) -> Self {
-        Self { signal, set, reset: None }
-    }
-
-    /// A signal that is reset by other conditions than those that set it.
-    pub(super) const fn with(
-        signal: Signal,
-        set: fn(Look<'_>, Owner) -> Condition,
-        reset: fn(Look<'_>, Owner) -> Condition,
-    ) -> Self {
-        Self { signal, set, reset: Some(reset) }
-    }
-}
-
-/// The row of a signal, for the value that is wanted.
-pub(super) fn find<Owner>(
-    rows: &[Row<Owner>],
-    look: Look<'_>,
-    owner: Owner,
-    question: &Question<'_>,
-) -> Option<Condition> {
-    let is_meant = |row: &&Row<Owner>| (row.signal.byte, row.signal.bit) == (question.byte, question.bit);
-    let row = rows.iter().find(is_meant)?;
-    Some(match (question.wanted, row.reset) {
-        (true, _) => (row.set)(look, owner),
-        (false, Some(reset)) => reset(look, owner),
-        (false, None) => (row.set)(look, owner).opposite(),
-    })
-}
+/// The conditions of a signal.
+pub(super) type Row<Owner> = control::Row<Conditions, Owner>;
 
 impl<'a> Look<'a> {
     pub(super) fn axis(self, axis: AxisNumber) -> String {
@@ -83,13 +54,4 @@ pub(super) fn of_channel(channel: ChannelNumber, signal: Signal, wanted: bool) -
 /// A length in user units.
 pub(super) fn length(position: Position) -> String {
     six_decimals(position.user())
-}
-
-pub(super) const fn yes(holds: bool) -> &'static str {
-    if holds { "yes" } else { "no" }
-}
-
-/// A fact that is true or false.
-pub(super) fn fact(what: impl Into<String>, holds: bool) -> Fact {
-    Fact::new(what, yes(holds), "yes", holds)
 }

@@ -9,10 +9,10 @@ mod axis;
 mod channel;
 mod look;
 
-use crate::control::{Condition, Question};
+use crate::control::{Condition, Question, fact};
 use crate::isg::state::State;
 use crate::variables::{Place, place_name};
-use look::{Look, fact, find};
+use look::{Look, Row};
 
 impl State {
     /// What must hold so that a bit has a value; `None` for a signal without conditions.
@@ -24,9 +24,9 @@ impl State {
         };
         match question.place {
             Place::Axis(axis) if !self.axes[axis].exists => Some(missing(question.place)),
-            Place::Axis(axis) => find(axis::ROWS, look, axis, question),
+            Place::Axis(axis) => Row::find(axis::ROWS, look, axis, question),
             Place::Channel(number) => match self.channels.iter().position(|channel| channel.number == number) {
-                Some(index) => find(channel::ROWS, look, index, question),
+                Some(index) => Row::find(channel::ROWS, look, index, question),
                 None => Some(missing(question.place)),
             },
             Place::Nck | Place::ModeGroup(_) => None,

@@ -1,13 +1,13 @@
 //! Conditions of enabling, measuring systems, exact stop and standstill.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::motion::Brake;
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::controllers::{ControllerState, STEP};
 use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::program::state::ProgramState;
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
+use crate::sinumerik::publish::conditions::look::{Look, Row, length};
 use crate::sinumerik::state::Unit;
 use crate::units::AxisNumber;
 use crate::variables::{Place, six_decimals};

@@ -1,13 +1,13 @@
 //! Conditions of the signals of the NCK, the mode groups and the channels: start-up, ready, modes, states.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact};
 use crate::image::{
     UserFromNck, axis_from_nck, channel_from_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck, nck_to_nck,
 };
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::operation::state::{MachineFunction, Mode};
 use crate::sinumerik::program::state::Run;
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
 

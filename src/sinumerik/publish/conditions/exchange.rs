@@ -1,9 +1,9 @@
 //! Conditions of the exchange of axes: 68.4 to 68.7.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact};
 use crate::image::{axis_from_nck, axis_to_nck};
 use crate::sinumerik::exchange::state::Holder;
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::units::AxisNumber;
 use crate::variables::Place;
 

@@ -1,10 +1,10 @@
 //! Conditions of 101.x: definition, limits of the difference, ready, synchronised.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::image::{axis_from_nck, axis_to_nck, channel_from_nck};
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::parameters::dynamics::StopLimit;
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
+use crate::sinumerik::publish::conditions::look::{Look, Row, length};
 use crate::sinumerik::state::Unit;
 use crate::units::AxisNumber;
 use crate::variables::Place;

@@ -1,10 +1,10 @@
 //! Conditions of handwheels (64.0 to 64.2, 67.0) and of the machine function of JOG (65.x, DB11 8.x), in the order in which
 //! `jog/handwheels.rs` and `jog/increments.rs` test.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact};
 use crate::image::{Signal, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck, nck_hmi, nck_to_nck};
 use crate::sinumerik::jog::state::Function;
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 
 /// The signals of an axis.

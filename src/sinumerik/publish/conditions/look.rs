@@ -1,7 +1,7 @@
 //! What conditions are computed from: the state after a cycle, what the control read from the PLC and the HMI in it, and names; and parts
 //! of many conditions.
 
-use crate::control::{Condition, Fact, Question};
+use crate::control::{self, Condition, Fact, Looks, fact};
 use crate::image::{Names, NckHmi, Signal, ToNck};
 use crate::nc_program::Library;
 use crate::sinumerik::alarms::Alarm;
@@ -25,45 +25,17 @@ pub(super) struct Look<'a> {
     pub(super) names: &'a Names,
 }
 
-/// The conditions for 1, and those for 0 if they are not the opposite.
-pub(super) struct Row<Owner: 'static> {
-    pub(super) signal: Signal,
-    pub(super) set: fn(Look<'_>, Owner) -> Condition,
-    pub(super) reset: Option<fn(Look<'_>, Owner) -> Condition>,
+/// The conditions of this control.
+pub(super) struct Conditions;
+
+impl Looks for Conditions {
+    type At<'a> = Look<'a>;
 }
 
-impl<Owner> Row<Owner> {
-    /// A signal that is 0 exactly if these conditions for 1 do not hold.
-    pub(super) const fn new(signal: Signal, set: fn(Look<'_>, Owner) -> Condition) -> Self {
-        Self { signal, set, reset: None }
-    }
-
-    /// A signal that is reset by other conditions than those that set it.
-    pub(super) const fn with(
-        signal: Signal,
-        set: fn(Look<'_>, Owner) -> Condition,
-        reset: fn(Look<'_>, Owner) -> Condition,
-    ) -> Self {
-        Self { signal, set, reset: Some(reset) }
-    }
-}
+/// The conditions of a signal.
+pub(super) type Row<Owner> = control::Row<Conditions, Owner>;
 
 impl<'a> Look<'a> {
-    pub(super) fn find<Owner: Copy>(
-        self,
-        rows: &[Row<Owner>],
-        owner: Owner,
-        question: &Question<'_>,
-    ) -> Option<Condition> {
-        let is_meant = |row: &&Row<Owner>| (row.signal.byte, row.signal.bit) == (question.byte, question.bit);
-        let row = rows.iter().find(is_meant)?;
-        Some(match (question.wanted, row.reset) {
-            (true, _) => (row.set)(self, owner),
-            (false, Some(reset)) => reset(self, owner),
-            (false, None) => (row.set)(self, owner).opposite(),
-        })
-    }
-
     /// A block that the control does not write keeps all its bits at 0.
     pub(super) fn not_shown(self, place: Place, wanted: bool) -> Option<Condition> {
         let name = place_name(place, self.names);
@@ -180,14 +152,4 @@ impl<'a> Look<'a> {
 /// A length in user units.
 pub(super) fn length(position: Position) -> String {
     six_decimals(position.user())
-}
-
-/// "Yes" or "no".
-pub(super) fn yes(holds: bool) -> &'static str {
-    if holds { "yes" } else { "no" }
-}
-
-/// A fact that is true or false.
-pub(super) fn fact(what: impl Into<String>, holds: bool) -> Fact {
-    Fact::new(what, yes(holds), "yes", holds)
 }

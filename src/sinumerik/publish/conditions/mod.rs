@@ -36,7 +36,7 @@ use crate::control::{Condition, Question};
 use crate::image::{NckHmi, ToNck};
 use crate::sinumerik::nck::Nck;
 use crate::variables::Place;
-use look::Look;
+use look::{Look, Row};
 
 impl Nck {
     /// What must hold so that a bit has a value; `None` for a signal without conditions.
@@ -48,14 +48,14 @@ impl Nck {
             return Some(hidden);
         }
         match question.place {
-            Place::Nck => look.find(control::NCK, (), question),
+            Place::Nck => Row::find(control::NCK, look, (), question),
             Place::ModeGroup(group) => {
                 let found = [control::MODE_GROUP, jog::MODE_GROUP];
-                found.iter().find_map(|rows| look.find(rows, group, question))
+                found.iter().find_map(|rows| Row::find(rows, look, group, question))
             }
             Place::Channel(channel) => {
                 let found = [control::CHANNEL, program::CHANNEL];
-                let row = found.iter().find_map(|rows| look.find(rows, channel, question));
+                let row = found.iter().find_map(|rows| Row::find(rows, look, channel, question));
                 row.or_else(|| look.auxiliary(channel, question))
             }
             Place::Axis(axis) => {
@@ -69,7 +69,7 @@ impl Nck {
                     jog::ROWS,
                     spindle::ROWS,
                 ];
-                found.iter().find_map(|rows| look.find(rows, axis, question))
+                found.iter().find_map(|rows| Row::find(rows, look, axis, question))
             }
         }
     }
@@ -83,7 +83,7 @@ mod tests {
     use crate::sinumerik::publish::known::has_row;
     use crate::sinumerik::texts::TEXTS;
 
-    fn is_in<Owner>(rows: &[look::Row<Owner>], signal: &Signal) -> bool {
+    fn is_in<Owner>(rows: &[Row<Owner>], signal: &Signal) -> bool {
         rows.iter().any(|row| (row.signal.byte, row.signal.bit) == (signal.byte, signal.bit))
     }
 

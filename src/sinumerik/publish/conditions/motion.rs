@@ -1,6 +1,6 @@
 //! Conditions of travel request and travel command, and what stops and holds every movement.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::image::{axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms::Reaction;
@@ -13,7 +13,7 @@ use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
 use crate::sinumerik::program::state::{ProgramState, Run};
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::sinumerik::single_axis::state::OrderedBy;
 use crate::sinumerik::state::{State, Unit};
 use crate::sinumerik::user::state::UserReaction;

@@ -1,6 +1,6 @@
 //! Conditions of the signals of a program: its state, the state of the channel, auxiliary functions.
 
-use crate::control::{Condition, Fact, Question};
+use crate::control::{Condition, Fact, Question, fact};
 use crate::image::{
     ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck,
     mode_group_from_nck, mode_group_to_nck, nck_from_nck,
@@ -9,7 +9,7 @@ use crate::nc_program::g;
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::program::state::{Phase, ProgramState, WaitFor};
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::sinumerik::user::state::UserReaction;
 use crate::units::{AxisNumber, ChannelNumber};
 

@@ -1,12 +1,12 @@
 //! Conditions of the reference of a measuring system, and of channel-specific referencing.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::image::{Signal, axis_from_nck, axis_to_nck, channel_from_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::gantry::state::Phase as GroupingPhase;
 use crate::sinumerik::jog::keys::key_signal;
 use crate::sinumerik::parameters::axis::Kind;
 use crate::sinumerik::parameters::dynamics::StopLimit;
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
+use crate::sinumerik::publish::conditions::look::{Look, Row, length};
 use crate::sinumerik::publish::conditions::motion::sign;
 use crate::sinumerik::referencing::state::Phase;
 use crate::sinumerik::state::Unit;

@@ -1,8 +1,8 @@
 //! Conditions of the signals of an axis that is positioned alone: 63.0 to 63.2, 76.5, 104.0 to 104.7.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::sinumerik::single_axis::state::{OrderedBy, Outcome, SpindleOrder};
 use crate::units::AxisNumber;
 use crate::variables::Place;

@@ -1,11 +1,11 @@
 //! Conditions of the signals of a spindle: 60.0, 82.3, 83.x, 84.x, 85.5, and its traverse commands.
 
-use crate::control::{Condition, Fact};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::image::{axis_from_nck, axis_to_nck};
 use crate::sinumerik::jog::keys::key_signal;
 use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::parameters::spindle::{REVOLUTION_PER_MINUTE, SpindleParameters};
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact, yes};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::sinumerik::publish::conditions::motion::sign;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::spindle::state::{Mode, Phase, Spindle, SpindlePositioning};
