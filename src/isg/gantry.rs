@@ -11,7 +11,7 @@ use super::rules::Why;
 use super::state::{AxesView, Axis, AxisError, State};
 use crate::motion::Limits;
 use crate::motion::coupling::{
-    Coupling, CouplingEvent, Events, Follower, Moves, OffsetSource, Progress, Realign, Target, What,
+    Coupling, CouplingEvent, Events, Follower, Limit, Moves, OffsetSource, Progress, Realign, Target, TwoStage, What,
 };
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
@@ -111,7 +111,11 @@ impl State {
     /// Starts to clear the differences that a reset, or `gantry_on`, clears (HG-12).
     pub(super) fn clear_differences(&mut self, triggers: impl Fn(&Axis) -> bool, cause: EventId) {
         let Self { combinations, axes, log, .. } = self;
-        for one in combinations.iter_mut().filter(|one| one.coupling.is_closed()) {
+        // HG-09: no relative motion while axes of a combination home.
+        let homes = |member: AxisNumber| axes[member].run.is_some() || axes[member].waits_for_others;
+        let stands = |one: &&mut Combination| one.coupling.is_closed() && !one.coupling.members().any(homes);
+        let standing: Vec<&mut Combination> = combinations.iter_mut().filter(stands).collect();
+        for one in standing {
             let view = AxesView(axes);
             let wants = |slave: AxisNumber| {
                 let is_absolute = axes[slave].homed && axes[one.coupling.leader()].homed;
@@ -174,8 +178,10 @@ impl State {
             let leader = one.coupling.leader();
             one.coupling.set_limits(|slave| {
                 let parameters = &axes[slave].parameters;
-                let is_homed = axes[slave].has_reference() && axes[leader].has_reference();
-                parameters.limits.filter(|_| parameters.is_monitored(is_homed))
+                let is_homed = axes[slave].homed && axes[leader].homed && !axes[slave].waits_for_others;
+                let limits = parameters.limits.filter(|_| parameters.is_monitored(is_homed));
+                // HG-29: there is a base only while others home.
+                limits.map(|limits| TwoStage { second_beyond_base: Some(limits.second), ..limits })
             });
             one.coupling.compare(&AxesView(axes), &mut events);
             found.extend(events.iter().map(|event| (*event, false)));
@@ -192,15 +198,17 @@ impl State {
             .collect();
         for (event, is_soft) in found {
             match event.what {
-                What::FirstExceeded(_) if !beyond.contains(&event.follower) => self.trip(event, is_soft, false),
-                What::SecondExceeded(_) => self.trip(event, is_soft, true),
+                What::FirstExceeded(limit) if !beyond.contains(&event.follower) => {
+                    self.trip(event, limit, is_soft, false);
+                }
+                What::SecondExceeded(limit) => self.trip(event, limit, is_soft, true),
                 _ => {}
             }
         }
     }
 
     /// A limit is exceeded.
-    fn trip(&mut self, event: CouplingEvent, is_soft: bool, is_locked: bool) {
+    fn trip(&mut self, event: CouplingEvent, limit: Limit, is_soft: bool, is_locked: bool) {
         let slave = event.follower;
         let (why, number, error) = match (is_soft, is_locked) {
             (false, false) => (Why::StageOne, messages::STAGE_1, AxisError::Resettable),
@@ -213,7 +221,7 @@ impl State {
             return;
         }
         let is_by_list = !is_soft || self.is_limited_by_list(slave);
-        let mut inputs = self.beyond(slave, event.difference, is_locked);
+        let mut inputs = self.beyond(slave, event.difference, limit.base, is_locked);
         if !is_by_list {
             inputs[1] = Input::None;
         }
@@ -238,8 +246,14 @@ impl State {
         })
     }
 
-    /// A difference beyond a limit of the list, as the inputs of a cause.
-    pub(super) fn beyond(&self, slave: AxisNumber, difference: Position, is_locked: bool) -> [Input; 3] {
+    /// A difference beyond a limit of the list, as the inputs of a cause; with the base from which the limit counts, if there is one.
+    pub(super) fn beyond(
+        &self,
+        slave: AxisNumber,
+        difference: Position,
+        base: Option<Position>,
+        is_locked: bool,
+    ) -> [Input; 3] {
         let measured = Input::Length(Quantity::SynchronismDifference, slave, difference);
         let limits = self.axes[slave].parameters.limits;
         let limit = match (limits, is_locked) {
@@ -248,7 +262,8 @@ impl State {
             (None, _) => None,
         };
         let datum = limit.map(|(number, at)| Input::Datum(number, Some(slave), tenths(at)));
-        [measured, datum.unwrap_or(Input::None), Input::None]
+        let base = base.map_or(Input::None, |base| Input::Length(Quantity::Base, slave, base));
+        [measured, datum.unwrap_or(Input::None), base]
     }
 
     /// An axis has an error: no axis of its combination stops alone (HG-13), and the program of its channel ends.

@@ -294,21 +294,24 @@ impl State {
 
     /// Differences that are still beyond a limit after they were cleared stop the axes again.
     pub(super) fn trip_again(&mut self) {
-        let beyond: Vec<(AxisNumber, Position, bool)> = self
+        let view = AxesView(&self.axes);
+        let base = |coupling: &Coupling, slave| coupling.limits(slave, &view).and_then(|(_, second)| second.base);
+        let beyond: Vec<(AxisNumber, Position, Option<Position>, bool)> = self
             .combinations
             .iter()
-            .filter(|one| one.coupling.is_closed())
-            .flat_map(|one| one.coupling.differences())
-            .filter(|(axis, _, stage)| (stage.first || stage.second) && self.axes[*axis].error.is_none())
-            .map(|(axis, difference, stage)| (axis, difference, stage.second))
+            .map(|one| &one.coupling)
+            .filter(|coupling| coupling.is_closed())
+            .flat_map(|coupling| coupling.differences().map(move |found| (coupling, found)))
+            .filter(|(_, (axis, _, stage))| (stage.first || stage.second) && self.axes[*axis].error.is_none())
+            .map(|(coupling, (axis, difference, stage))| (axis, difference, base(coupling, axis), stage.second))
             .collect();
-        for (slave, difference, is_locked) in beyond {
+        for (slave, difference, base, is_locked) in beyond {
             let (number, error, why) = if is_locked {
                 (messages::STAGE_2, AxisError::Locked, Why::StageTwo)
             } else {
                 (messages::STAGE_1, AxisError::Resettable, Why::StageOne)
             };
-            let inputs = self.beyond(slave, difference, is_locked);
+            let inputs = self.beyond(slave, difference, base, is_locked);
             let event = self.log.note(Place::Axis(slave), why, inputs, self.axes[slave].causes.motion);
             self.pending.raise(of_axis(number, slave), None, event);
             self.axis_error(slave, error, event);

@@ -75,7 +75,7 @@ pub(super) struct Axis {
     pub shift: Position,
     pub homed: bool,
     pub run: Option<Run>,
-    /// A slave whose combination is being homed: its difference is not absolute until all are homed (HG-29).
+    /// A slave whose combination is being homed: its limits do not count from P-AXIS-00073 until all are homed (HG-29).
     pub waits_for_others: bool,
     pub error: Option<AxisError>,
     pub units: Units,
@@ -98,11 +98,6 @@ impl Axis {
     /// The actual value.
     pub(super) fn actual(&self) -> Position {
         self.feedback.encoders[0].value + self.shift
-    }
-
-    /// Whether differences count from its reference.
-    pub(super) fn has_reference(&self) -> bool {
-        self.homed && !self.waits_for_others
     }
 
     /// A position as it is shown: that of a modulo axis is within its range.
@@ -191,6 +186,6 @@ impl Axes for AxesView<'_> {
     }
 
     fn is_referenced(&self, axis: AxisNumber) -> bool {
-        self.0[axis].has_reference()
+        self.0[axis].homed
     }
 }

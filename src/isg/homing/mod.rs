@@ -10,6 +10,7 @@ pub(super) mod run;
 use job::{Chain, Job};
 use run::Run;
 
+use super::combination::Combination;
 use super::hli::axis_from_cnc;
 use super::inputs::axis_signal;
 use super::messages;
@@ -17,9 +18,9 @@ use super::parameters::{Homing, tenths};
 use super::pending::of_axis;
 use super::phases::HOMING;
 use super::rules::Why;
-use super::state::{AxesView, AxisError, State};
+use super::state::{AxesView, Axis, AxisError, State};
 use crate::motion::Motion;
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, PerAxis, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
 
 impl State {
@@ -112,18 +113,14 @@ impl State {
     }
 
     fn end_chain(&mut self, chain: &Chain) {
-        // HG-29: from here on the differences of all count from P-AXIS-00073.
-        let Self { combinations, axes, .. } = self;
         for member in &chain.members {
-            if std::mem::take(&mut axes[*member].waits_for_others) {
-                for one in &mut *combinations {
-                    one.coupling.value_shifted(*member, Position::ZERO, &AxesView(axes));
-                }
-            }
+            self.axes[*member].waits_for_others = false;
         }
         let Some(index) = chain.members.first().and_then(|first| self.combination_of(*first)) else { return };
         let view = AxesView(&self.axes);
         let one = &mut self.combinations[index];
+        // HG-29: from here on the limits of all count from P-AXIS-00073.
+        one.coupling.clear_bases();
         if one.homes_at_once {
             one.homes_at_once = false;
             one.coupling.close(&view);
@@ -240,14 +237,27 @@ impl State {
 
     /// The actual value of an axis gets its reference. Nothing moves.
     fn refer(&mut self, number: AxisNumber, by: Position, cause: EventId) {
-        let axis = &mut self.axes[number];
+        let Self { combinations, axes, .. } = self;
+        let waiting = |axes: &PerAxis<Axis>, one: &Combination| -> Vec<(AxisNumber, Option<Position>)> {
+            let waiting = one.coupling.followers().filter(|slave| axes[*slave].waits_for_others);
+            waiting.map(|slave| (slave, one.coupling.difference(slave, &AxesView(axes)))).collect()
+        };
+        let before: Vec<_> = combinations.iter().map(|one| waiting(axes, one)).collect();
+        let axis = &mut axes[number];
         axis.shift += by;
         axis.setpoint.shift(by);
         axis.homed = true;
         axis.causes.homed = cause;
-        let Self { combinations, axes, .. } = self;
-        for one in combinations {
+        for (one, before) in combinations.iter_mut().zip(before) {
             one.coupling.value_shifted(number, by, &AxesView(axes));
+            // P-108: the difference is that of the references at once. Limits that act before homing go on as they were (P-AXIS-00249).
+            for (slave, before) in before {
+                let now = one.coupling.difference(slave, &AxesView(axes));
+                if let Some(jump) = now.zip(before).map(|(now, before)| now - before).filter(|by| *by != Position::ZERO)
+                {
+                    one.coupling.move_base(slave, jump);
+                }
+            }
         }
     }
 }

@@ -298,6 +298,13 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         }
     }
 
+    /// Moves the base from which the limits of one follower count: its difference has changed by this amount although nothing moved.
+    pub fn move_base(&mut self, follower: AxisNumber, by: Position) {
+        for coupled in self.followers.iter_mut().filter(|coupled| coupled.follower.axis == follower) {
+            coupled.kept = Some(coupled.kept.unwrap_or(Position::ZERO) + by);
+        }
+    }
+
     /// Limits count from zero again.
     pub fn clear_bases(&mut self) {
         for coupled in &mut self.followers {

@@ -69,8 +69,8 @@ pub struct TwoStage {
     pub first: Option<Position>,
     /// The second limit.
     pub second: Position,
-    /// With a value, both stages count from the base of [`Coupling::keep_bases`](super::Coupling::keep_bases). While there is a base, this is
-    /// another second limit, and the smaller one acts. `None`: the limits count from zero, also while there is a base.
+    /// With a value, both stages count from the base of [`Coupling::keep_bases`](super::Coupling::keep_bases) and
+    /// [`Coupling::move_base`](super::Coupling::move_base). While there is a base, this is another second limit, and the smaller one acts. `None`: the limits count from zero, also while there is a base.
     pub second_beyond_base: Option<Position>,
 }
 
