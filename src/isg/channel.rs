@@ -159,11 +159,15 @@ pub(super) struct Channel {
     pub restores: bool,
     /// A reset waits until the axes stand.
     pub resets: bool,
+    /// A reset has left the error of a drive: what the drives report of its cycle still counts.
+    pub awaits_drives: bool,
     /// P-CHAN-00104 and P-CHAN-00105.
     pub restores_after_reset: bool,
     pub restores_after_end: bool,
     /// P-CHAN-00460.
     pub retains_axes: bool,
+    /// P-CHAN-00346.
+    pub always_shortest_way: bool,
 }
 
 impl Channel {
@@ -204,9 +208,11 @@ impl Channel {
             restored_from_end: false,
             restores: false,
             resets: false,
+            awaits_drives: false,
             restores_after_reset: false,
             restores_after_end: false,
             retains_axes: false,
+            always_shortest_way: false,
         }
     }
 

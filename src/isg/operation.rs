@@ -99,12 +99,34 @@ impl State {
         let (place, reset) = (Place::Channel(self.channels[index].number), self.channels[index].causes.reset);
         let event = self.log.now(place, reset, Why::ResetClears, [Input::None; 3]);
         self.channels[index].resets = false;
-        let members: Vec<AxisNumber> = self.existing().filter(|axis| self.is_of_channel(index, *axis)).collect();
+        let members = self.members_of(index);
         self.clear_differences_of(&members, event);
         self.reset_groups(index, event);
-        // O-15: what a reset does not remove stays.
+        self.clear_errors(index, &members, event);
+        let is_left = |axis: &AxisNumber| self.axes[*axis].error.is_some() && self.axes[*axis].feedback.drive_fault;
+        self.channels[index].awaits_drives = members.iter().any(is_left);
+    }
+
+    /// P-113: a fault of a drive that ended in the cycle of a reset. The drives report it at the end of this cycle.
+    fn finish_reset_of_drives(&mut self, index: usize) {
+        let members = self.members_of(index);
+        if !members.iter().any(|axis| self.axes[*axis].feedback.drive_fault) {
+            let event = self.channels[index].causes.reset;
+            self.clear_differences_of(&members, event);
+            self.clear_errors(index, &members, event);
+        }
+    }
+
+    /// The axes on which a reset of a channel acts.
+    fn members_of(&self, index: usize) -> Vec<AxisNumber> {
+        self.existing().filter(|axis| self.is_of_channel(index, *axis)).collect()
+    }
+
+    /// Clears the errors of axes, except what a reset does not remove (O-15), and that of the channel.
+    fn clear_errors(&mut self, index: usize, members: &[AxisNumber], event: EventId) {
+        let place = Place::Channel(self.channels[index].number);
         let mut cleared = Vec::new();
-        for axis in &members {
+        for axis in members {
             let has_fault = |member: &AxisNumber| self.is_beyond(*member) || self.axes[*member].feedback.drive_fault;
             let stays = self.coupled_with(*axis).iter().any(has_fault);
             if self.axes[*axis].error == Some(AxisError::Resettable) && !stays {
@@ -201,6 +223,9 @@ impl State {
             }
         }
         self.channels[index].is_new = false;
+        if std::mem::take(&mut self.channels[index].awaits_drives) && !self.channels[index].resets {
+            self.finish_reset_of_drives(index);
+        }
         if self.channels[index].resets && self.channels[index].task == Task::Idle && self.stands(index) {
             self.finish_reset(index);
         }
