@@ -279,6 +279,7 @@ impl State {
             channel.restores_after_reset = list.restore_after_reset;
             channel.restores_after_end = list.preserve_after_program_end;
             channel.retains_axes = list.retain_last_configuration;
+            channel.always_shortest_way = list.always_shortest_way;
             channel.first_feed = list.default_feed;
             channel.feed_unit = if list.is_feed_in_m_per_minute { 1000.0 } else { 1.0 };
         }

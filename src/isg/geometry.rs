@@ -33,6 +33,10 @@ impl State {
             if channel.is_slave(axis) {
                 return Err(Refused::axis(messages::LINK_SLAVE_PROGRAMMED, axis));
             }
+            let is_modulo = self.axes[axis].parameters.modulo.is_some();
+            if let Some((_, fault)) = block.two_signs.iter().find(|(other, _)| other == name && !is_modulo) {
+                return Err(self.refused_by(index, fault));
+            }
             // A block whose axes the path does not have waits until it stands, and is then placed anew.
             let place = channel.path_axes.iter().position(|other| *other == axis);
             let place = place.ok_or_else(|| value(&format!("more than {PATH_AXES} axes")))?;
@@ -41,6 +45,8 @@ impl State {
             end[place] = match (modal.absolute, self.axes[axis].parameters.modulo) {
                 (false, _) => start[place] + way,
                 (true, None) => way,
+                // P-CHAN-00346: the sign belongs to the position.
+                (true, Some(modulo)) if channel.always_shortest_way => modulo.target(start[place], way, None),
                 (true, Some(modulo)) => modulo.target(start[place], way, sign),
             };
             if !end[place].is_finite() || end[place].abs() > FARTHEST {

@@ -35,10 +35,19 @@ macro_rules! messages {
 }
 
 messages! {
+    AXIS_MISSING = 20003, "", 1, "Channel %1 block %2: the G function needs axes: %3";
     DWELL_TWICE = 20013, "", 2, "Channel %1 block %2: dwell time both directly and with an axis";
+    MOTION_TWICE = 20108, "", 2, "Channel %1 block %2: more than one G function for the kind of movement: %3";
+    ZERO_OFFSET_TWICE = 20116, "", 2, "Channel %1 block %2: more than one G function for zero offsets: %3";
+    TRANSITION_TWICE = 20117, "", 2, "Channel %1 block %2: more than one G function for the block transition: %3";
+    CENTRE_TWICE = 20127, "", 2, "Channel %1 block %2: more than one G function for the centre of circles: %3";
     HOMING_WITH_GROUP = 20137, "", 2, "Channel %1 block %2: homing is not possible while coupling group %3 is active";
     PERCENT_IN_MAIN_PROGRAM = 20193, "", 2, "Channel %1 block %2: percent sign in the main program";
     CONTROL_DEPTH = 20211, "", 2, "Channel %1 block %2: control blocks are nested too deeply";
+    UNEXPECTED_ELSE = 20214, "", 2, "Channel %1 block %2: $ELSE does not match the control block: %3";
+    UNEXPECTED_ELSEIF = 20216, "", 2, "Channel %1 block %2: $ELSEIF does not match the control block: %3";
+    UNEXPECTED_ENDIF = 20218, "", 2, "Channel %1 block %2: $ENDIF does not match the control block: %3";
+    OPEN_AT_END = 20375, "", 1, "Channel %1 block %2: control blocks are open at the end of the program: %3";
     GROUP_0_NUMBER = 20438, "", 1, "Channel %1: the number 0 is no axis; the pair of coupling group 0 is skipped: %4";
     GROUP_0_SELF = 20440, "", 1, "Channel %1: axis %3 is its own master; the pair of coupling group 0 is skipped: %4";
     GROUP_0_TWICE = 20441, "", 1, "Channel %1: axis %3 is a slave twice; the pair of coupling group 0 is skipped: %4";
@@ -54,7 +63,9 @@ messages! {
     SLAVE_TWICE = 20476, "", 2, "Channel %1 block %2: axis %3 is a slave twice, group %4";
     MASTER_AND_SLAVE = 20477, "", 2, "Channel %1 block %2: axis %3 is both master and slave, group %4";
     DWELL_AXES = 20685, "", 1, "Channel %1 block %2: dwell time with additional axes";
+    LABEL_TWICE = 20836, "", 2, "Channel %1 block %2: a label is defined more than once: %3";
     JUMP_TARGET = 20839, "", 2, "Channel %1 block %2: character behind $GOTO not permitted";
+    NUMBER_TWICE = 20841, "", 2, "Channel %1 block %2: the block number stands twice: %3";
     SLAVE_IN_CHANNEL = 21020, "", 3, "Channel %1 block %2: %3 is a gantry slave and cannot be an axis of a channel: %4";
     NUMERATOR_0 = 21077, "", 2, "Channel %1 block %2: the numerator of the coupling factor is 0";
     DENOMINATOR_MISSING = 21110, "", 2, "Channel %1 block %2: the denominator of the coupling factor is missing";
@@ -68,6 +79,9 @@ messages! {
     SLAVE_IS_MAIN_SPINDLE = 21347, "", 2, "Channel %1: the slave of a spindle pair is the main spindle";
     COMPENSATED_WHILE_COUPLED = 21403, "", 2, "Channel %1: the compensation of axis %2 was changed while it is coupled";
     MASTER_INDEPENDENT = 21481, "", 2, "Channel %1: axis %2, the master of an active coupling group, was programmed as independent axis";
+    SKIPPED_AT_LOCAL_END = 21500, "", 2, "Channel %1 block %2: skipped control blocks are open at the end of a local subroutine: %3";
+    SKIPPED_AT_MAIN_END = 21501, "", 2, "Channel %1 block %2: skipped control blocks are open at the end of the main program: %3";
+    SKIPPED_AT_GLOBAL_END = 21502, "", 2, "Channel %1 block %2: skipped control blocks are open at the end of a global subroutine: %3";
     BEHIND_CALL = 21542, "", 2, "Channel %1 block %2: NC commands behind a subroutine call";
     NO_MASTER_BIT = 70124, "", 1, "Slave %1 names axis %2 as its master, which is not configured as one: %3";
     MODULO_DIFFERS = 70202, "", 1, "Modulo settings of slave %1 and master %2 differ: %3";

@@ -256,6 +256,14 @@ impl State {
 
     /// Raises the message of the language.
     fn raise_fault(&mut self, index: usize, fault: &Fault) {
+        let refused = self.refused_by(index, fault);
+        let cause = self.channels[index].causes.program;
+        let event = self.raise_in_channel(index, Some(fault.number()), refused, cause);
+        self.channels[index].causes.block = event;
+    }
+
+    /// A fault of the language as a message.
+    pub(super) fn refused_by(&self, index: usize, fault: &Fault) -> Refused {
         let number = match fault.code {
             FaultCode::Syntax => messages::NC_SYNTAX,
             FaultCode::Call => messages::NC_CALL,
@@ -272,15 +280,15 @@ impl State {
             }
             None => {
                 let text = match fault.code {
-                    FaultCode::Syntax => format!("line {}, column {}: {}", fault.line, fault.column, fault.text),
+                    FaultCode::Syntax | FaultCode::Number(_) => {
+                        format!("line {}, column {}: {}", fault.line, fault.column, fault.text)
+                    }
                     _ => fault.text.clone(),
                 };
                 (Detail::Text(text), Detail::None)
             }
         };
-        let cause = self.channels[index].causes.program;
-        let event = self.raise_in_channel(index, Some(fault.number()), Refused(number, third, fourth), cause);
-        self.channels[index].causes.block = event;
+        Refused(number, third, fourth)
     }
 
     /// Executes a block. A block that is refused ends the program, and nothing of it acts.

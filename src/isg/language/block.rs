@@ -32,6 +32,8 @@ pub struct Block {
     pub axes: Vec<(String, f64)>,
     /// The signs that stand directly behind the name of an axis, as in `A-90`: the direction of a modulo axis. They are in the values, too.
     pub signs: Vec<(String, Sign)>,
+    /// Axes with two signs behind their names, as in `C--90`. This is possible for a modulo axis; for another one the message is raised.
+    pub two_signs: Vec<(String, Fault)>,
     /// G74: axes and their place in the order. Equal numbers are homed together.
     pub homing: Vec<(String, u32)>,
     /// G04, `#TIME`.
@@ -40,7 +42,7 @@ pub struct Block {
     pub command: Option<Command>,
     /// M17, M29, M2, M30.
     pub end: Option<End>,
-    /// Messages of class 1: 20685, 21111. The block is executed.
+    /// Messages of class 1: 20003, 20375, 20685, 21111. The block is executed.
     pub warnings: Vec<Fault>,
 }
 
@@ -100,7 +102,7 @@ pub struct Dwell {
 /// What M17, M29, M2 or M30 ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum End {
-    /// The program: M2 or M30, or M17 in a main program.
+    /// The program: M2 or M30, with `lenient` M17 in a main program, too.
     Program,
     /// A subroutine: its caller goes on.
     Subroutine,

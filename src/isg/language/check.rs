@@ -9,9 +9,10 @@ use crate::nc_program::{Program, normalised};
 
 use super::block::{Block, is_modelled};
 use super::compose::{Composed, compose, compose_command};
-use super::fault::{Error, Fault, FaultCode};
+use super::control::unexpected;
+use super::fault::{Error, Fault, FaultCode, OPEN_AT_END};
 use super::head::{Header, Target, head, header};
-use super::interpreter::{fault, fault_in, hidden, percent};
+use super::interpreter::{fault, fault_in, hidden, label_twice, percent, whole};
 use super::lines::Line;
 use super::parse::content;
 use super::scope::{Owner, Scope, Store, is_read_only, owner};
@@ -41,6 +42,7 @@ pub fn check(program: &Program, others: &[Arc<Program>], lenient: bool) -> Vec<F
         is_subroutine: false,
         has_ended: false,
         open: Vec::new(),
+        has_else: Vec::new(),
         findings: Vec::new(),
     };
     if let Err((line, error)) = main {
@@ -96,6 +98,8 @@ struct Checker<'a> {
     /// The section has a block that ends the program or the subroutine.
     has_ended: bool,
     open: Vec<Opened>,
+    /// Of each open control block: it is an `$IF` that has had its `$ELSE`.
+    has_else: Vec<bool>,
     findings: Vec<Finding>,
 }
 
@@ -125,13 +129,20 @@ impl<'a> Checker<'a> {
         self.is_subroutine = is_subroutine;
         self.has_ended = false;
         self.labels.clear();
-        let labels = &mut self.labels;
-        self.text.each_label(section, &mut |label, _, open| {
+        let (labels, mut lines) = (&mut self.labels, BTreeMap::new());
+        let mut twice = Vec::new();
+        self.text.each_label(section, &mut |label, line, open| {
             let loops = open.iter().filter(|(structure, _)| structure.is_loop()).take(DEEPEST);
-            // Of two equal labels the first one counts.
-            labels.entry(label.clone()).or_insert_with(|| loops.map(|(_, part)| part.line).collect());
+            if let Some(first) = lines.get(label) {
+                twice.push((line, label_twice(label, 0, *first, line)));
+            } else {
+                lines.insert(label.clone(), line);
+                labels.insert(label.clone(), loops.map(|(_, part)| part.line).collect());
+            }
             true
         });
+        let found = |(line, error)| Finding { fault: fault_in(self.text.program, line, error), is_warning: false };
+        self.findings.extend(twice.into_iter().map(found));
     }
 
     fn read(
@@ -163,9 +174,11 @@ impl<'a> Checker<'a> {
         self.structure(mark(&line.text, &head), line, head.rest)?;
         let (none, at) = (Store::new(), head.rest);
         let mut scope = Scope { program: &none, level: &none, channel: None, written: Vec::new() };
-        let composed = match content(&line.text, head.rest, self.text.lenient)? {
+        let content = content(&line.text, head.rest, self.text.lenient)?;
+        whole(line, &content)?;
+        let composed = match content {
             Content::Empty => return Ok(()),
-            Content::Words(words) => compose(&words, &mut scope)?,
+            Content::Words(words) => compose(&words, &mut scope, self.text.lenient)?,
             Content::Command(command) => compose_command(&command, &scope)?,
             Content::Flow(flow) => {
                 if let Flow::If(_, Some(target)) = flow {
@@ -183,6 +196,8 @@ impl<'a> Checker<'a> {
 
     fn composed(&mut self, composed: Composed, at: usize, warnings: &mut Vec<Error>) -> Result<(), Error> {
         warnings.extend(composed.warnings);
+        // Only a machine knows its modulo axes.
+        warnings.extend(composed.two_signs.into_iter().map(|(_, error)| error));
         self.has_ended |= composed.block.end.is_some();
         possible(&composed.block, at)?;
         if self.is_subroutine
@@ -228,16 +243,18 @@ impl<'a> Checker<'a> {
         match mark {
             Some(Mark::Open(structure)) => {
                 self.open.push((structure, Part { line: line.line, next: line.next }));
+                self.has_else.push(false);
                 if self.open.len() > DEEPEST { Err(too_deep(at)) } else { Ok(()) }
             }
             Some(Mark::Close(structure)) => match self.open.last() {
                 Some((open, _)) if *open == structure => {
                     self.open.pop();
+                    self.has_else.pop();
                     Ok(())
                 }
                 Some(_) | None => {
                     let [word, end] = structure.words();
-                    Err(Error::syntax(at, format!("${end} without ${word} before it")))
+                    Err(unexpected(end, at, &format!("${end} without ${word} before it")))
                 }
             },
             Some(Mark::Other(_)) | None => Ok(()),
@@ -245,8 +262,15 @@ impl<'a> Checker<'a> {
     }
 
     /// Parts of a control block stand inside it.
-    fn inside(&self, flow: &Flow, at: usize) -> Result<(), Error> {
+    fn inside(&mut self, flow: &Flow, at: usize) -> Result<(), Error> {
         let innermost = self.open.last().map(|(structure, _)| *structure);
+        let has_else = self.has_else.last().copied().unwrap_or(false) && innermost == Some(Structure::If);
+        if matches!(flow, Flow::Else)
+            && innermost == Some(Structure::If)
+            && let Some(has_else) = self.has_else.last_mut()
+        {
+            *has_else = true;
+        }
         let (word, is_inside) = match flow {
             Flow::ElseIf(_) => ("ELSEIF", innermost == Some(Structure::If)),
             Flow::Else => ("ELSE", innermost == Some(Structure::If)),
@@ -270,19 +294,26 @@ impl<'a> Checker<'a> {
             | Flow::Until(_)
             | Flow::EndDo(_) => return Ok(()),
         };
+        if has_else && matches!(flow, Flow::Else | Flow::ElseIf(_)) {
+            return Err(unexpected(word, at, "the $IF has had its $ELSE already"));
+        }
         if is_inside {
             Ok(())
         } else {
-            Err(Error::syntax(at, format!("${word} stands outside the control block that it belongs to")))
+            Err(unexpected(word, at, &format!("${word} stands outside the control block that it belongs to")))
         }
     }
 
     /// The end of a section: what is open has no end.
     fn unclosed(&mut self) {
+        self.has_else.clear();
         for (structure, part) in std::mem::take(&mut self.open) {
             let [word, end] = structure.words();
-            let error = Error::syntax(0, format!("${word} has no ${end}"));
-            self.findings.push(Finding { fault: fault_in(self.text.program, part.line, error), is_warning: false });
+            // A program runs over an $IF without its end if the condition is true.
+            let is_warning = self.text.lenient && structure == Structure::If;
+            let code = if is_warning { FaultCode::Number(OPEN_AT_END) } else { FaultCode::Syntax };
+            let error = Error::new(code, 0, format!("${word} has no ${end}"));
+            self.findings.push(Finding { fault: fault_in(self.text.program, part.line, error), is_warning });
         }
     }
 }

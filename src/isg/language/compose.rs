@@ -3,7 +3,10 @@
 use super::block::{AxisRequest, Block, Command, Conflicts, Dwell, End, GantryTargets, PutTargets};
 use super::commands::no_denominator;
 use super::evaluate::{evaluate, resolved, whole};
-use super::fault::{DWELL_AXES, DWELL_TWICE, Error, FACTOR, FaultCode};
+use super::fault::{
+    AXIS_MISSING, CENTRE_TWICE, DWELL_AXES, DWELL_TWICE, Error, FACTOR, FaultCode, MOTION_TWICE, TRANSITION_TWICE,
+    ZERO_OFFSET_TWICE,
+};
 use super::head::Target;
 use super::link::{AxisReference, Form as ValueForm, Link, LinkOff, Pair as ValuePair, conflict, factor_error};
 use super::scope::Scope;
@@ -15,6 +18,10 @@ pub(super) struct Composed {
     pub(super) block: Block,
     /// Messages that do not stop the program.
     pub(super) warnings: Vec<Error>,
+    /// Axes with two signs, and the message for one that is no modulo axis.
+    pub(super) two_signs: Vec<(String, Error)>,
+    /// Where M17 or M29 is written.
+    pub(super) subroutine_end: Option<usize>,
     /// The subroutine that is called behind the block, whether it is a local one, and where it is written.
     pub(super) call: Option<(String, bool, usize)>,
     /// The jump behind the block.
@@ -42,8 +49,27 @@ impl Composed {
     }
 }
 
+/// G functions of which a block has one: the number of the message where a source gives one, and what they decide.
+const GROUPS: [(&[u32], Option<u32>, &str); 7] = [
+    (&[0, 1, 2, 3], Some(MOTION_TWICE), "the kind of movement"),
+    (&[17, 18, 19], None, "the plane"),
+    (&[40, 41, 42], None, "tool radius compensation"),
+    (&[53, 54, 55, 56, 57, 58, 59], Some(ZERO_OFFSET_TWICE), "zero offsets"),
+    (&[60, 61, 260, 261, 359, 360], Some(TRANSITION_TWICE), "the block transition"),
+    (&[90, 91], None, "absolute or incremental positions"),
+    (&[161, 162], Some(CENTRE_TWICE), "the centre of circles"),
+];
+
+/// A G function beside the others of its block: two of one group exclude each other, as does the same one twice.
+fn exclusive(others: &[u32], number: u32, at: usize) -> Result<(), Error> {
+    let Some((group, code, what)) = GROUPS.iter().find(|(group, ..)| group.contains(&number)) else { return Ok(()) };
+    let Some(other) = others.iter().find(|other| group.contains(other)) else { return Ok(()) };
+    let text = format!("G{other:02} and G{number:02} stand in one block; a block has one G function for {what}");
+    Err(Error::new(code.map_or(FaultCode::Syntax, FaultCode::Number), at, text))
+}
+
 /// The block of these words. Assignments are noted in the scope.
-pub(super) fn compose(words: &[Word], scope: &mut Scope<'_>) -> Result<Composed, Error> {
+pub(super) fn compose(words: &[Word], scope: &mut Scope<'_>, lenient: bool) -> Result<Composed, Error> {
     let mut composed = Composed::default();
     let mut time = None;
     for Word { kind, at } in words {
@@ -54,7 +80,10 @@ pub(super) fn compose(words: &[Word], scope: &mut Scope<'_>) -> Result<Composed,
                     format!("G{number} needs its axes, as in `G{number} #AXIS [X]`, and stands alone in its block");
                 return Err(Error::syntax(*at, text));
             }
-            WordKind::G(number) => block.g.push(*number),
+            WordKind::G(number) => {
+                exclusive(&block.g, *number, *at)?;
+                block.g.push(*number);
+            }
             WordKind::M(number) => {
                 block.m.push(*number);
                 let end = match number {
@@ -62,6 +91,9 @@ pub(super) fn compose(words: &[Word], scope: &mut Scope<'_>) -> Result<Composed,
                     17 | 29 => Some(End::Subroutine),
                     _ => None,
                 };
+                if end == Some(End::Subroutine) {
+                    composed.subroutine_end = composed.subroutine_end.or(Some(*at));
+                }
                 block.end = block.end.or(end);
             }
             WordKind::Value(Address::H, value) => block.h.push(number(evaluate(value, scope)?, "H", *at)?),
@@ -80,12 +112,18 @@ pub(super) fn compose(words: &[Word], scope: &mut Scope<'_>) -> Result<Composed,
                     return Err(twice(name, *at));
                 }
             }
-            WordKind::Axis(name, sign, value) => {
+            WordKind::Axis(name, sign, is_doubled, value) => {
                 if block.axes.iter().any(|(other, _)| other == name) {
                     return Err(twice(name, *at));
                 }
                 block.axes.push((name.clone(), evaluate(value, scope)?));
                 block.signs.extend(sign.map(|sign| (name.clone(), sign)));
+                if *is_doubled {
+                    let text = format!(
+                        "two signs stand behind {name}; this is possible only for a modulo axis, where the first one is the direction"
+                    );
+                    composed.two_signs.push((name.clone(), Error::syntax(*at, text)));
+                }
             }
             WordKind::Time(value) => time = Some((evaluate(value, scope)?, *at)),
             WordKind::Assign(place, value) => {
@@ -100,7 +138,14 @@ pub(super) fn compose(words: &[Word], scope: &mut Scope<'_>) -> Result<Composed,
     if composed.block.g.contains(&4) {
         dwell(words, time, &mut composed)?;
     }
-    if composed.block.g.contains(&74) {
+    if let Some(at) = words.iter().find(|word| word.kind == WordKind::G(74)).map(|word| word.at) {
+        if composed.block.axes.is_empty() {
+            let text = "G74 needs the axes to home and their order, as in `G74 X1`";
+            if !lenient {
+                return Err(Error::syntax(at, text));
+            }
+            composed.warnings.push(Error::new(FaultCode::Number(AXIS_MISSING), at, text));
+        }
         for (name, order) in std::mem::take(&mut composed.block.axes) {
             let at = place_of(words, &name);
             composed.block.homing.push((name, number(order, "the place of an axis in the order of homing", at)?));

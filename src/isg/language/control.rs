@@ -5,7 +5,10 @@
 
 use super::evaluate::{evaluate, is_true, resolved};
 use super::expression::Expression;
-use super::fault::Error;
+use super::fault::{
+    Error, FaultCode, SKIPPED_AT_GLOBAL_END, SKIPPED_AT_LOCAL_END, SKIPPED_AT_MAIN_END, UNEXPECTED_ELSE,
+    UNEXPECTED_ELSEIF, UNEXPECTED_ENDIF,
+};
 use super::interpreter::Work;
 use super::scope::Store;
 use super::search::{DEEPEST, Part, Structure, Text, too_deep};
@@ -40,6 +43,9 @@ impl Interpreter {
             }
             Flow::ElseIf(condition) => {
                 let open = self.innermost(Structure::If, "ELSEIF", at)?;
+                if open.has_else {
+                    return Err(unexpected("ELSEIF", at, "the $IF has had its $ELSE already"));
+                }
                 if !open.is_searching {
                     return self.end(at, work, environment);
                 }
@@ -49,6 +55,9 @@ impl Interpreter {
             }
             Flow::Else => {
                 let open = self.innermost(Structure::If, "ELSE", at)?;
+                if open.has_else {
+                    return Err(unexpected("ELSE", at, "the $IF has had its $ELSE already"));
+                }
                 self.take(open.is_searching, at, work, environment)
             }
             Flow::EndIf => self.closed(Structure::If, at, next),
@@ -158,7 +167,7 @@ impl Interpreter {
         let open = self.levels.last().and_then(|level| level.open.last());
         open.filter(|open| open.structure == structure).cloned().ok_or_else(|| {
             let [opens, _] = structure.words();
-            Error::syntax(at, format!("${word} without ${opens} before it"))
+            unexpected(word, at, &format!("${word} without ${opens} before it"))
         })
     }
 
@@ -171,9 +180,26 @@ impl Interpreter {
     }
 
     /// Enters a branch, or goes on to the next one.
-    fn branch(&mut self, open: Open, at: usize, work: &Work<'_>, environment: &dyn Environment) -> Result<(), Error> {
+    fn branch(
+        &mut self,
+        mut open: Open,
+        at: usize,
+        work: &Work<'_>,
+        environment: &dyn Environment,
+    ) -> Result<(), Error> {
         let words: &[&str] = if open.structure == Structure::If { &["ELSEIF", "ELSE"] } else { &["CASE", "DEFAULT"] };
-        let next = part(open.structure, work.line.next, words, at, work, environment)?;
+        let next = match part(open.structure, work.line.next, words, at, work, environment) {
+            // A control tells it at the end of the program: of a branch that runs as a warning.
+            Err(_) if work.lenient && open.structure == Structure::If => {
+                if open.is_searching {
+                    return Err(self.skipped_to_the_end(open.line, at));
+                }
+                open.is_unclosed = true;
+                self.go_to(work.line.next);
+                return self.open(open, at);
+            }
+            next => next?,
+        };
         self.go_to(if open.is_searching { next.line } else { work.line.next });
         self.open(open, at)
     }
@@ -185,14 +211,33 @@ impl Interpreter {
         }
         if let Some(open) = self.levels.last_mut().and_then(|level| level.open.last_mut()) {
             open.is_searching = false;
+            open.has_else = true;
         }
         self.go_to(work.line.next);
         Ok(())
     }
 
+    /// Everything behind a condition that is false belongs to its branch, up to the end of the program.
+    fn skipped_to_the_end(&self, line: u32, at: usize) -> Error {
+        let number = match self.levels.as_slice() {
+            [.., level] if level.is_local => SKIPPED_AT_LOCAL_END,
+            [_, .., _] => SKIPPED_AT_GLOBAL_END,
+            _ => SKIPPED_AT_MAIN_END,
+        };
+        Error::new(FaultCode::Number(number), at, format!("the $IF in line {line} has no $ENDIF"))
+    }
+
     /// Leaves the innermost control block.
     fn end(&mut self, at: usize, work: &Work<'_>, environment: &dyn Environment) -> Result<(), Error> {
-        let Some(open) = self.levels.last().and_then(|level| level.open.last()) else { return Ok(()) };
+        let Some(open) = self.levels.last_mut().and_then(|level| level.open.last_mut()) else { return Ok(()) };
+        if open.structure == Structure::If
+            && let Some(line) = text(work, &|level| environment.is_skipped(level)).misplaced(open.next)
+        {
+            // The second $ELSE is refused in its own line.
+            open.has_else = true;
+            self.go_to(line);
+            return Ok(());
+        }
         let end = part(open.structure, open.next, &[], at, work, environment)?;
         self.close();
         self.go_to(end.next);
@@ -262,6 +307,21 @@ fn opened(structure: Structure, work: &Work<'_>) -> Open {
     Open::new(structure, work.line.line, work.line.next)
 }
 
+/// A part of a control block that does not match the innermost one.
+pub(super) fn unexpected(word: &str, at: usize, text: &str) -> Error {
+    let code = match word {
+        "ELSE" => FaultCode::Number(UNEXPECTED_ELSE),
+        "ELSEIF" => FaultCode::Number(UNEXPECTED_ELSEIF),
+        "ENDIF" => FaultCode::Number(UNEXPECTED_ENDIF),
+        _ => FaultCode::Syntax,
+    };
+    Error::new(code, at, text)
+}
+
+fn text<'a>(work: &Work<'a>, is_skipped: &'a dyn Fn(u8) -> bool) -> Text<'a> {
+    Text { program: work.program, lenient: work.lenient, is_skipped }
+}
+
 /// The line that a control block goes on with.
 fn part(
     structure: Structure,
@@ -271,9 +331,7 @@ fn part(
     work: &Work<'_>,
     environment: &dyn Environment,
 ) -> Result<Part, Error> {
-    let is_skipped = |level| environment.is_skipped(level);
-    let text = Text { program: work.program, lenient: work.lenient, is_skipped: &is_skipped };
-    text.part(structure, from, words).ok_or_else(|| {
+    text(work, &|level| environment.is_skipped(level)).part(structure, from, words).ok_or_else(|| {
         let [word, end] = structure.words();
         Error::syntax(at, format!("${word} has no ${end}, or control blocks cross each other"))
     })

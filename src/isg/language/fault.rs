@@ -21,35 +21,63 @@ pub enum FaultCode {
     Number(u32),
 }
 
-/// The published numbers that the language can report, with their meaning. 20685 and 21111 are warnings.
-pub const NUMBERS: [(u32, &str); 13] = [
+/// The published numbers that the language can report, with their meaning. 20003, 20375, 20685 and 21111 are warnings.
+pub const NUMBERS: [(u32, &str); 27] = [
+    (AXIS_MISSING, "G function without its axes"),
     (DWELL_TWICE, "dwell time both directly and with an axis"),
+    (MOTION_TWICE, "more than one G function for the kind of movement"),
+    (ZERO_OFFSET_TWICE, "more than one G function for zero offsets"),
+    (TRANSITION_TWICE, "more than one G function for the block transition"),
+    (CENTRE_TWICE, "more than one G function for the centre of circles"),
     (PERCENT_IN_MAIN_PROGRAM, "percent sign in the main program"),
     (CONTROL_DEPTH, "control blocks nested too deeply"),
+    (UNEXPECTED_ELSE, "$ELSE does not match the control block"),
+    (UNEXPECTED_ELSEIF, "$ELSEIF does not match the control block"),
+    (UNEXPECTED_ENDIF, "$ENDIF does not match the control block"),
+    (OPEN_AT_END, "valid control blocks open at the program end"),
     (SLAVE_IS_MASTER, "slave axis equals its master axis"),
     (SLAVE_TWICE, "slave axis listed twice"),
     (SLAVE_AND_MASTER, "axis is both master and slave"),
     (DWELL_AXES, "dwell time with additional axes"),
+    (LABEL_TWICE, "label defined more than once"),
     (JUMP_TARGET, "character behind $GOTO not permitted"),
+    (NUMBER_TWICE, "block number programmed twice"),
     (NUMERATOR, "numerator of the coupling factor is 0"),
     (NO_DENOMINATOR, "denominator of the coupling factor is missing"),
     (FACTOR, "coupling factor is not -1 or 1, set to 1"),
     (PERCENT_IN_GLOBAL_SUBROUTINE, "percent sign in a global subroutine"),
+    (SKIPPED_AT_LOCAL_END, "skipped control blocks open at the end of a local subroutine"),
+    (SKIPPED_AT_MAIN_END, "skipped control blocks open at the end of the main program"),
+    (SKIPPED_AT_GLOBAL_END, "skipped control blocks open at the end of a global subroutine"),
     (BEHIND_CALL, "NC commands behind a subroutine call"),
 ];
 
+pub(super) const AXIS_MISSING: u32 = 20003;
 pub(super) const DWELL_TWICE: u32 = 20013;
+pub(super) const MOTION_TWICE: u32 = 20108;
+pub(super) const ZERO_OFFSET_TWICE: u32 = 20116;
+pub(super) const TRANSITION_TWICE: u32 = 20117;
+pub(super) const CENTRE_TWICE: u32 = 20127;
 pub(super) const PERCENT_IN_MAIN_PROGRAM: u32 = 20193;
 pub(super) const CONTROL_DEPTH: u32 = 20211;
+pub(super) const UNEXPECTED_ELSE: u32 = 20214;
+pub(super) const UNEXPECTED_ELSEIF: u32 = 20216;
+pub(super) const UNEXPECTED_ENDIF: u32 = 20218;
+pub(super) const OPEN_AT_END: u32 = 20375;
 pub(super) const SLAVE_IS_MASTER: u32 = 20475;
 pub(super) const SLAVE_TWICE: u32 = 20476;
 pub(super) const SLAVE_AND_MASTER: u32 = 20477;
 pub(super) const DWELL_AXES: u32 = 20685;
+pub(super) const LABEL_TWICE: u32 = 20836;
 pub(super) const JUMP_TARGET: u32 = 20839;
+pub(super) const NUMBER_TWICE: u32 = 20841;
 pub(super) const NUMERATOR: u32 = 21077;
 pub(super) const NO_DENOMINATOR: u32 = 21110;
 pub(super) const FACTOR: u32 = 21111;
 pub(super) const PERCENT_IN_GLOBAL_SUBROUTINE: u32 = 21313;
+pub(super) const SKIPPED_AT_LOCAL_END: u32 = 21500;
+pub(super) const SKIPPED_AT_MAIN_END: u32 = 21501;
+pub(super) const SKIPPED_AT_GLOBAL_END: u32 = 21502;
 pub(super) const BEHIND_CALL: u32 = 21542;
 
 impl fmt::Display for FaultCode {

@@ -1,7 +1,7 @@
 //! What stands before the words of a block: `/`, N number, label; and the header lines of programs, `%NAME` and `%L NAME`.
 
 use super::cursor::Cursor;
-use super::fault::Error;
+use super::fault::{Error, FaultCode, NUMBER_TWICE};
 
 /// The beginning of a block.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -57,6 +57,11 @@ pub(super) fn head(text: &str) -> Result<Head, Error> {
             head.label = Some(Target::Number(number));
         }
         cursor.skip_blanks();
+    }
+    let again = cursor.at();
+    if let (Some(first), Some(second)) = (head.number, number(&mut cursor)?) {
+        let text = format!("the block has the numbers N{first} and N{second}; write one, for a jump label `N{first}:`");
+        return Err(Error::new(FaultCode::Number(NUMBER_TWICE), again, text));
     }
     if cursor.peek() == Some('[') {
         head.label = Some(Target::Name(label(&mut cursor)?));

@@ -6,7 +6,9 @@ use crate::nc_program::{Program, normalised};
 
 use super::block::{End, Origin};
 use super::compose::{Composed, compose, compose_command};
-use super::fault::{Error, Fault, FaultCode, PERCENT_IN_GLOBAL_SUBROUTINE, PERCENT_IN_MAIN_PROGRAM};
+use super::fault::{
+    Error, Fault, FaultCode, LABEL_TWICE, OPEN_AT_END, PERCENT_IN_GLOBAL_SUBROUTINE, PERCENT_IN_MAIN_PROGRAM,
+};
 use super::head::{Head, Target, head, header};
 use super::lines::Line;
 use super::parse::content;
@@ -131,6 +133,7 @@ impl Interpreter {
             return Ok(Step::Next);
         }
         let content = content(&line.text, head.rest, work.lenient)?;
+        whole(line, &content)?;
         let mut waits = false;
         content.for_each_variable(&mut |name| waits |= owner(name) == Owner::Channel && environment.waits(name));
         if waits && !environment.is_executed() {
@@ -199,8 +202,14 @@ impl Interpreter {
     ) -> Result<Step, Error> {
         let none = Store::new();
         let mut scope = self.scope(environment, &none);
-        let composed = compose(words, &mut scope)?;
+        let composed = compose(words, &mut scope, work.lenient)?;
         let written = scope.written;
+        if !work.lenient
+            && self.levels.len() == 1
+            && let Some(at) = composed.subroutine_end
+        {
+            return Err(Error::syntax(at, "M17 and M29 end a subroutine, and this is the main program; write M30"));
+        }
         // What the block does later is looked for first: nothing of a faulty block is executed.
         let called =
             composed.call.as_ref().map(|(name, is_local, at)| self.called(name, *is_local, *at, work, environment));
@@ -238,7 +247,12 @@ impl Interpreter {
     /// The block, and the end of the level or the program.
     fn prepared(&mut self, mut composed: Composed, head: &Head, work: &Work<'_>) -> Step {
         let is_executable = composed.is_executable();
+        let unclosed = self.levels.last().and_then(|level| level.open.iter().find(|open| open.is_unclosed));
         let block = &mut composed.block;
+        if let (Some(_), Some(open)) = (block.end, unclosed) {
+            let text = format!("the $IF in line {} has no $ENDIF", open.line);
+            composed.warnings.push(Error::new(FaultCode::Number(OPEN_AT_END), 0, text));
+        }
         block.end = block.end.map(|end| match (end, self.levels.len() > 1) {
             (End::Program, true) => End::Aborted,
             (End::Subroutine, false) => End::Program,
@@ -255,6 +269,9 @@ impl Interpreter {
         block.origin = origin(work, head);
         let warning = |error| fault(work.program, work.line, head.number, error);
         block.warnings = composed.warnings.into_iter().map(warning).collect();
+        let two_signs = composed.two_signs.into_iter();
+        block.two_signs =
+            two_signs.map(|(name, error)| (name, fault(work.program, work.line, head.number, error))).collect();
         Step::Prepared(Prepared::Block(Box::new(composed.block)))
     }
 
@@ -296,9 +313,12 @@ impl Interpreter {
         let is_skipped = |level| environment.is_skipped(level);
         let text = Text { program: work.program, lenient: work.lenient, is_skipped: &is_skipped };
         let (section, now) = self.levels.last().map_or((1, &[][..]), |level| (level.section, &level.open));
-        let (line, open) = text
-            .label(section, target)
-            .ok_or_else(|| Error::syntax(at, format!("this program level has no label {target}")))?;
+        let (found, second) = text.label(section, target);
+        let (line, open) =
+            found.ok_or_else(|| Error::syntax(at, format!("this program level has no label {target}")))?;
+        if let Some(second) = second {
+            return Err(label_twice(target, at, line, second));
+        }
         let mut opened = Vec::with_capacity(open.len());
         for (structure, Part { line, next }) in open {
             if let Some(known) = now.iter().find(|known| known.line == line) {
@@ -334,7 +354,34 @@ impl Interpreter {
 impl Open {
     /// A control block without values, whose branch is being executed.
     pub(super) fn new(structure: Structure, line: u32, next: u32) -> Self {
-        Self { structure, line, next, is_searching: false, value: 0.0, step: 0.0, variable: String::new() }
+        Self {
+            structure,
+            line,
+            next,
+            is_searching: false,
+            has_else: false,
+            is_unclosed: false,
+            value: 0.0,
+            step: 0.0,
+            variable: String::new(),
+        }
+    }
+}
+
+/// A label that stands twice in a program level.
+pub(super) fn label_twice(target: &Target, at: usize, first: u32, second: u32) -> Error {
+    let text =
+        format!("the label {target} stands in line {first} and in line {second}; labels of a program level differ");
+    Error::new(FaultCode::Number(LABEL_TWICE), at, text)
+}
+
+/// A `#` command stands in one line.
+pub(super) fn whole(line: &Line<'_>, content: &Content) -> Result<(), Error> {
+    match (line.broken, content) {
+        (Some(at), Content::Command(_)) => {
+            Err(Error::syntax(at, "a `#` command cannot be continued with `\\`; write it in one line"))
+        }
+        _ => Ok(()),
     }
 }
 

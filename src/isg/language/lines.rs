@@ -16,6 +16,8 @@ pub(super) struct Line<'a> {
     program: &'a Program,
     /// Without comments; the bytes have the places of the text.
     pub(super) text: Cow<'a, str>,
+    /// The byte of the first `\` that continues the block.
+    pub(super) broken: Option<usize>,
     /// Where the parts of the text begin, and the lines that they are.
     parts: Vec<(usize, u32)>,
     /// The first line.
@@ -28,20 +30,27 @@ impl<'a> Line<'a> {
     /// The block that begins in a line.
     pub(super) fn read(program: &'a Program, line: u32, lenient: bool) -> Option<Self> {
         let raw = program.line(line)?;
-        let mut block =
-            Self { program, text: Cow::Borrowed(""), parts: vec![(0, line)], line, next: line.saturating_add(1) };
-        let (mut text, mut is_open) = without_comments(raw, 0, lenient);
+        let mut block = Self {
+            program,
+            text: Cow::Borrowed(""),
+            broken: None,
+            parts: vec![(0, line)],
+            line,
+            next: line.saturating_add(1),
+        };
+        let (mut text, mut depth) = without_comments(raw, 0, lenient);
         loop {
             let before = block.text.len();
             block.text = if before == 0 { text } else { Cow::Owned(block.text.into_owned() + &text) };
             let last = block.next - 1;
             let (next, from) = if lenient
-                && is_open
-                && let Some(end) = comment_end(program, block.next)
+                && depth > 0
+                && let Some(end) = comment_end(program, block.next, depth)
             {
                 end
             } else if block.text.trim_end().ends_with('\\') {
                 let end = block.text.trim_end().len() - 1;
+                block.broken = block.broken.or(Some(end));
                 let mut without = block.text.into_owned();
                 without.replace_range(end..=end, " ");
                 block.text = Cow::Owned(without);
@@ -57,7 +66,7 @@ impl<'a> Line<'a> {
             block.parts.push((joined.len(), next));
             block.text = Cow::Owned(joined);
             block.next = next.saturating_add(1);
-            (text, is_open) = without_comments(raw, from, lenient);
+            (text, depth) = without_comments(raw, from, lenient);
             if is_continued {
                 text = without_number(text);
             }
@@ -158,26 +167,26 @@ fn without_number(text: Cow<'_, str>) -> Cow<'_, str> {
     Cow::Owned(text)
 }
 
-/// The byte behind the `)` that closes the comment at the beginning of a text.
-fn closed(text: &str) -> Option<usize> {
-    let mut depth = 0_usize;
-    text.bytes().enumerate().find_map(|(at, byte)| {
+/// The byte behind the `)` that closes comments of this depth, else how many are open at the end of the text.
+fn closed(text: &str, mut depth: usize) -> Result<usize, usize> {
+    for (at, byte) in text.bytes().enumerate() {
         match byte {
             b'(' => depth += 1,
-            b')' => depth -= 1,
+            b')' if depth == 1 => return Ok(at + 1),
+            b')' => depth = depth.saturating_sub(1),
             _ => {}
         }
-        (depth == 0).then_some(at + 1)
-    })
+    }
+    Err(depth)
 }
 
-/// The text with blanks for comments, and whether a comment is not closed. Everything before `from` is a comment.
-fn without_comments(raw: &str, from: usize, lenient: bool) -> (Cow<'_, str>, bool) {
+/// The text with blanks for comments, and how many comments in each other are not closed. Everything before `from` is a comment.
+fn without_comments(raw: &str, from: usize, lenient: bool) -> (Cow<'_, str>, usize) {
     if from == 0 && !raw.contains(['(', ';', '#', ')']) {
-        return (Cow::Borrowed(raw), false);
+        return (Cow::Borrowed(raw), 0);
     }
     let mut text = String::with_capacity(raw.len());
-    let (mut hidden_to, mut is_open, mut is_quoted) = (from, false, false);
+    let (mut hidden_to, mut open, mut is_quoted) = (from, 0, false);
     for (at, letter) in raw.char_indices() {
         if at >= hidden_to {
             let rest = &raw[at..];
@@ -185,9 +194,10 @@ fn without_comments(raw: &str, from: usize, lenient: bool) -> (Cow<'_, str>, boo
                 '"' => is_quoted = !is_quoted,
                 _ if is_quoted => {}
                 '(' => {
-                    let end = closed(rest);
-                    is_open = end.is_none();
-                    hidden_to = end.map_or(raw.len(), |end| at + end);
+                    (hidden_to, open) = match closed(rest, 0) {
+                        Ok(end) => (at + end, 0),
+                        Err(depth) => (raw.len(), depth),
+                    };
                 }
                 ';' => hidden_to = raw.len(),
                 ')' if lenient => hidden_to = at + 1,
@@ -201,12 +211,12 @@ fn without_comments(raw: &str, from: usize, lenient: bool) -> (Cow<'_, str>, boo
             text.push(letter);
         }
     }
-    (Cow::Owned(text), is_open)
+    (Cow::Owned(text), open)
 }
 
-/// Where a comment ends that was not closed in the line before: the line, and the byte behind `)`. A line that looks like a block or has a
-/// comment of its own ends the search.
-fn comment_end(program: &Program, from: u32) -> Option<(u32, usize)> {
+/// Where comments of a depth end that were not closed in the line before: the line, and the byte behind the last `)`. As in one line, each `(`
+/// needs a `)` of its own. A line that looks like a block ends the search.
+fn comment_end(program: &Program, from: u32, mut depth: usize) -> Option<(u32, usize)> {
     for number in from..=program.count() {
         let raw = program.line(number)?;
         let text = raw.trim_start();
@@ -215,11 +225,9 @@ fn comment_end(program: &Program, from: u32) -> Option<(u32, usize)> {
         if text.is_empty() || is_numbered || text.starts_with(['%', '#', '(', ';', ':']) {
             return None;
         }
-        match (raw.find(')'), raw.find('(')) {
-            (Some(end), None) => return Some((number, end + 1)),
-            (Some(end), Some(start)) if end < start => return Some((number, end + 1)),
-            (_, Some(_)) => return None,
-            (None, None) => {}
+        match closed(raw, depth) {
+            Ok(end) => return Some((number, end)),
+            Err(open) => depth = open,
         }
     }
     None

@@ -35,7 +35,10 @@
 //! | blanks | allowed between an address and its value |
 //! | calls | 20 deep |
 //! | an unclosed `(` | ends with its line; `lenient`: reaches over lines that are no blocks if one of them closes it |
-//! | M17 in a main program | ends it |
+//! | M17 in a main program | `nc-syntax`; `lenient`: ends it |
+//! | two signs behind an axis, `X--5` | `nc-syntax`, except for a modulo axis |
+//! | G74 without axes | `nc-syntax`; `lenient`: a warning |
+//! | `$IF` without `$ENDIF` | `nc-syntax`; `lenient`: a warning at the end of the program if its branch runs |
 //! | the same axis or address twice in a block | `nc-syntax` |
 //! | `V.L.` variables | belong to one program level |
 //! | a jump into a loop | `nc-syntax`; into a branch it is allowed |

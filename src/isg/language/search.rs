@@ -155,16 +155,34 @@ impl<'a> Text<'a> {
         self.lines(1).find(is_it).map(|line| line.next)
     }
 
-    /// The line of a label in the section that begins at a line, and the control blocks that are open there, with their lines.
-    pub(super) fn label(self, section: u32, target: &Target) -> Option<(u32, Vec<Opened>)> {
-        let mut found = None;
+    /// The line of a label in the section that begins at a line, and the control blocks that are open there, with their lines; and the line
+    /// of a second label of this name.
+    pub(super) fn label(self, section: u32, target: &Target) -> (Option<(u32, Vec<Opened>)>, Option<u32>) {
+        let (mut found, mut second) = (None, None);
         self.each_label(section, &mut |label, line, open| {
-            if label == target {
-                found = Some((line, open.to_vec()));
+            match (label == target, &found) {
+                (true, None) => found = Some((line, open.to_vec())),
+                (true, Some(_)) => second = Some(line),
+                (false, _) => {}
             }
-            found.is_none()
+            second.is_none()
         });
-        found
+        (found, second)
+    }
+
+    /// The line of the first `$ELSE` or `$ELSEIF` behind the `$ELSE` of the `$IF` whose blocks begin in a line.
+    pub(super) fn misplaced(self, from: u32) -> Option<u32> {
+        let (mut depth, mut has_else) = (0_usize, false);
+        for (line, head) in self.section(from) {
+            match mark(&line.text, &head) {
+                Some(Mark::Open(_)) => depth += 1,
+                Some(Mark::Close(_)) => depth = depth.checked_sub(1)?,
+                Some(Mark::Other("ELSE" | "ELSEIF")) if depth == 0 && has_else => return Some(line.line),
+                Some(Mark::Other("ELSE")) if depth == 0 => has_else = true,
+                Some(Mark::Other(_)) | None => {}
+            }
+        }
+        None
     }
 
     /// Calls a function for each label of a section, with its line and the control blocks that are open there, as long as it returns true.

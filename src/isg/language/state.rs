@@ -44,6 +44,10 @@ pub(super) struct Open {
     pub(super) next: u32,
     /// `$IF`, `$SWITCH`: no branch was taken yet.
     pub(super) is_searching: bool,
+    /// `$IF`: its `$ELSE` has been passed.
+    pub(super) has_else: bool,
+    /// `$IF`: it has no `$ENDIF`; only with `lenient`.
+    pub(super) is_unclosed: bool,
     /// `$SWITCH`: the value that is compared. `$FOR`: the end value.
     pub(super) value: f64,
     /// `$FOR`: the step.

@@ -27,7 +27,8 @@ pub(super) enum WordKind {
     G(u32),
     M(u32),
     Value(Address, Expression),
-    Axis(String, Option<Sign>, Expression),
+    /// With the sign that stands directly behind the name, and whether another one follows it.
+    Axis(String, Option<Sign>, bool, Expression),
     /// The time directly behind G04.
     Time(Expression),
     Assign(Place, Expression),
@@ -183,7 +184,7 @@ impl WordKind {
     fn for_each_variable(&self, call: &mut dyn FnMut(&str)) {
         match self {
             Self::G(_) | Self::M(_) | Self::Call { .. } | Self::Goto(_) => {}
-            Self::Value(_, value) | Self::Axis(_, _, value) | Self::Time(value) => value.for_each_variable(call),
+            Self::Value(_, value) | Self::Axis(_, _, _, value) | Self::Time(value) => value.for_each_variable(call),
             Self::Assign(place, value) => {
                 place.for_each_variable(call);
                 value.for_each_variable(call);

@@ -132,10 +132,14 @@ fn axis<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<Wo
     if behind.eat("=") && behind.peek() != Some('=') {
         let value = expression(&mut behind)?;
         *cursor = behind;
-        return Ok(WordKind::Axis(name.to_owned(), None, value));
+        return Ok(WordKind::Axis(name.to_owned(), None, false, value));
     }
     *cursor = start.moved(start.at() + 1);
     let sign = Sign::of(cursor.peek());
+    let mut behind = *cursor;
+    behind.step();
+    behind.skip_blanks();
+    let is_doubled = sign.is_some() && Sign::of(behind.peek()).is_some();
     let value = expression(cursor).map_err(|error| {
         // The value is wrong, or what looks like the name of an axis has none.
         let is_name = name[1..].starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == '_');
@@ -148,7 +152,7 @@ fn axis<'a>(name: &str, start: Cursor<'a>, cursor: &mut Cursor<'a>) -> Result<Wo
         );
         Error::syntax(start.at(), text)
     })?;
-    Ok(WordKind::Axis(name[..1].to_owned(), sign, value))
+    Ok(WordKind::Axis(name[..1].to_owned(), sign, is_doubled, value))
 }
 
 /// `LL NAME`, `L NAME`, `L "NAME"`, `L4712`.

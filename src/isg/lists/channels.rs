@@ -79,6 +79,7 @@ pub(super) fn check(
         restore_after_reset: is_set(100_104),
         preserve_after_program_end: is_set(100_105),
         retain_last_configuration: is_set(100_460),
+        always_shortest_way: is_set(100_346),
         has_alias_names: is_set(100_253),
         is_feed_in_m_per_minute: draft.real(FACTOR) == IN_M_PER_MINUTE,
         default_feed: draft.real(FEED),

@@ -199,6 +199,8 @@ pub struct Channel {
     pub preserve_after_program_end: bool,
     /// P-CHAN-00460.
     pub retain_last_configuration: bool,
+    /// P-CHAN-00346.
+    pub always_shortest_way: bool,
     /// P-CHAN-00108: 0.1 = F in m/min, 100 = mm/min.
     pub is_feed_in_m_per_minute: bool,
     /// P-CHAN-00099; 0 = none.

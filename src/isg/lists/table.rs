@@ -166,6 +166,9 @@ pub static PARAMETERS: &[Parameter] = &[
         .values("0, 1", "0")
         .restart()
         .means("default axis names are A1 … A32"),
+    channel(346, "enable_mod_axis_always_shortest_way", Type::Boolean)
+        .values("0, 1", "0")
+        .means("G90 positions modulo axes on the shortest way always; a sign belongs to the position"),
     channel(460, "retain_last_ax_config", Type::Boolean)
         .values("0, 1", "0")
         .means("axis configuration and couplings outlive the program end, RESET and the next start"),

@@ -38,6 +38,16 @@ fn what_only_a_run_knows_is_no_error() {
     assert_eq!(found(text), []);
 }
 
+/// Diagnosis 20193: the main program has begun, and `%` stands in it.
+#[test]
+fn a_percent_sign_in_the_main_program_is_found_in_its_line() {
+    let error = |line, column| (line, column, "20193".to_owned(), false);
+    assert_eq!(found("N10 X1\n  %MAIN\nN20 X2\nM30"), [error(2, 3)]);
+    assert_eq!(found("%MAIN\nN10 X1\n%L UP\nM17"), [error(3, 1)]);
+    // Behind its end a subroutine may stand.
+    assert_eq!(found("%MAIN\nN10 X1\nM30\n%L UP\nM17"), []);
+}
+
 /// What the control refuses on any machine is an error here, too, each in its line.
 #[test]
 fn values_that_no_machine_takes_are_errors() {

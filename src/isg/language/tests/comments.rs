@@ -72,7 +72,10 @@ fn lenient_reading_takes_what_manuals_print() {
         ("# text\nN10 X1 # text\n:\nN20 X2", vec![10, 20]),
         ("(open\ntext\ntext.) )\nN20 X2", vec![20]),
         ("(open\ntext.) N15 X1\nN20 X2", vec![15, 20]),
-        // A block or a further comment ends the search.
+        // Each `(` needs a `)` of its own, as in one line.
+        ("(open (two\ntext) X9\nmore) N15 X1\nN20 X2", vec![15, 20]),
+        ("(open\ntext (in it) X9\nmore) N15 X1\nN20 X2", vec![15, 20]),
+        // A block ends the search.
         ("(open\nN10 X1 (a)\nN20 X2", vec![10, 20]),
         ("(open\nX1 (a)\nN20 X2", vec![2, 20]),
         ("(open\n\ntext)", vec![]),

@@ -8,6 +8,7 @@ mod comments;
 mod control;
 mod examples;
 mod expressions;
+mod refused;
 mod words;
 
 use std::collections::BTreeMap;

@@ -161,7 +161,6 @@ fn a_program_ends_with_m30_m02_or_its_text() {
     assert_eq!(ends("G1 X1\nM30\nG1 X2"), [None, Some(End::Program)]);
     assert_eq!(ends("G1 X1 M02\nG1 X2"), [Some(End::Program)]);
     assert_eq!(ends("G1 X1\n\n"), [None]);
-    assert_eq!(ends("M17\nG1 X2"), [Some(End::Program)]);
     assert_eq!(ends(""), []);
 }
 
