@@ -282,9 +282,10 @@ fn opened(machine: Machine, mut summary: Vec<String>, ignored: Vec<String>) -> C
     for alarm in trial.variables().alarms.iter() {
         let name = trial.alarm_name(alarm.number);
         let what = format!("{name}: {}", trial.alarm_text(alarm));
-        // A control may have found the same in its files, with more words: `70124 …`.
+        // A control may have found the same in its files, with more words: `70124 …`, `warning 70124: …`.
         let is_same = |finding: &Finding| {
-            finding.class == Class::AlarmAtPowerOn && finding.what.split(' ').next() == Some(name.as_str())
+            let mut words = finding.what.split(' ').take(2).map(|word| word.trim_end_matches(':'));
+            finding.class == Class::AlarmAtPowerOn && words.any(|word| word == name)
         };
         if !findings.iter().any(|finding| finding.what == what || is_same(finding)) {
             findings.push(Finding::new(Class::AlarmAtPowerOn, what, ""));

@@ -44,7 +44,9 @@ use crate::motion::Feedback;
 use crate::nc_program::Program;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position, Time};
-use crate::variables::{AlarmNumber, DatumValue, EventId, Events, FaultName, Place, RParameters, Variables};
+use crate::variables::{
+    AlarmNumber, DatumValue, EventId, Events, FaultName, Place, RParameters, RaisedAlarm, Variables,
+};
 
 /// A command to a control from outside, taken at the edge of a cycle.
 #[derive(Clone, Debug, PartialEq)]
@@ -272,6 +274,11 @@ pub trait Control: Send + Sync + Debug {
 
     /// The event behind a pending alarm.
     fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId;
+
+    /// The alarms that were raised in this cycle although they were pending. The default is none, for a control that raises an alarm once.
+    fn raised_again(&self) -> &[RaisedAlarm] {
+        &[]
+    }
 
     /// The event that cleared an alarm.
     fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId;

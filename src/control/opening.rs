@@ -33,6 +33,11 @@ pub trait Configuration {
         }
     }
 
+    /// Which of the files are not used and why, and what to do, for the error about an axis that does not exist. The default is none.
+    fn not_used(&self) -> Option<(String, String)> {
+        None
+    }
+
     /// The largest number of a gantry grouping that `plant.toml` may use in `[bridge.1]`. The default is 0: the control has no groupings.
     fn groupings(&self) -> u8 {
         0

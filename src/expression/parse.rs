@@ -293,9 +293,13 @@ impl Parser<'_> {
                     ..whole
                 })
             }
-            Token::Quoted(name) => self.scope.describe().alarm_number(&name).ok_or_else(|| Problem {
-                cure: "write a number; `opennck alarms` lists the alarms of the control".to_owned(),
-                ..whole
+            Token::Quoted(name) => self.scope.describe().alarm_number(&name).ok_or_else(|| {
+                let names = self.scope.describe().alarm_names();
+                let cure = match nearest(&name, names.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean '{near}'?"),
+                    None => "write a number; `opennck alarms` lists the alarms of the control".to_owned(),
+                };
+                Problem { cure, ..whole }
             }),
             Token::Name(name) => Err(Problem { cure: format!("put a name in quotes: alarm('{name}')"), ..whole }),
             Token::Sign(_) | Token::End => Err(whole),

@@ -35,6 +35,9 @@ impl Describe for Machine {
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
         (name == "gantry-stage-1").then_some(AlarmNumber(AlarmNumber::OWN))
     }
+    fn alarm_names(&self) -> Vec<String> {
+        vec!["gantry-stage-1".to_owned()]
+    }
     fn has_alarm(&self, number: AlarmNumber) -> bool {
         number != AlarmNumber(1653)
     }
@@ -337,6 +340,7 @@ fn an_error_names_the_expectation_the_place_and_the_remedy() {
         ("alram(10653)", "a function, found `alram`", "did you mean `alarm`?"),
         ("alarm(x)", "the number of an alarm", "quotes"),
         ("alarm('nothing')", "the number of an alarm, found 'nothing'", "write a number"),
+        ("alarm('gantry-stage-3')", "found 'gantry-stage-3'", "did you mean 'gantry-stage-1'?"),
         ("alarm(1.5)", "the number of an alarm", "`opennck alarms`"),
         ("alarm(1653)", "the number of an alarm", "`opennck alarms`"),
         ("alarm('open)", "a closing quote", "operators are"),

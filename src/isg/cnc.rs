@@ -237,6 +237,7 @@ impl Control for Cnc {
 
     fn begin_cycle(&mut self, cycle: u64) {
         self.0.log.begin(cycle);
+        self.0.pending.begin_cycle();
     }
 
     fn command(&mut self, command: &ControlCommand) -> EventId {
@@ -352,6 +353,10 @@ impl Control for Cnc {
 
     fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId {
         self.0.pending.cause(number, place)
+    }
+
+    fn raised_again(&self) -> &[RaisedAlarm] {
+        self.0.pending.raised_again()
     }
 
     fn cleared_cause(&self, _: AlarmNumber, _: Place) -> EventId {

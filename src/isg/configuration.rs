@@ -8,7 +8,7 @@ use super::channel::{Channel, Member};
 use super::cnc::Cnc;
 use super::hli::HLI;
 use super::language::{AxisReference, Form, Pair};
-use super::lists::{self, AxisKind, Lists, OnMode, Started};
+use super::lists::{self, AxisKind, Code, Lists, Message, OnMode, Started};
 use super::parameters::{AxisParameters, Clearing, Homing, Modulo, acceleration, length, velocity};
 use super::state::{Axis, Cycle, State};
 use crate::control::{
@@ -136,6 +136,15 @@ impl Configuration for ParameterLists {
         }
         *self = Self::of(self.lists.clone(), self.remarks.clone())?;
         Ok(())
+    }
+
+    fn not_used(&self) -> Option<(String, String)> {
+        let is_left_out = |message: &&Message| message.code == Code::Number(super::messages::NUMBER_0.0);
+        let texts: Vec<&str> = self.started.messages.iter().filter(is_left_out).map(|message| &*message.text).collect();
+        (!texts.is_empty()).then(|| {
+            let reason = format!("the machine has an axis list with the number 0 (110076): {}", texts.join("; "));
+            (reason, "write the logical number of the axis into kopf.achs_nr of this list".to_owned())
+        })
     }
 
     fn groupings(&self) -> u8 {

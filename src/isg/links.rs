@@ -115,7 +115,10 @@ impl State {
             let find =
                 |reference: &AxisReference| self.referenced(channel, reference).ok_or_else(|| missing(reference));
             let (slave, master) = (find(&pair.slave)?, find(&pair.master)?);
-            let of_pair = |number| Refused(number, Detail::Axis(slave), Detail::Axis(master));
+            let of_pair = |number| {
+                let text = format!("ax{} of group {group}", self.axes[master].parameters.number);
+                Refused(number, Detail::Axis(slave), Detail::Text(text))
+            };
             if channel.index_of(slave).is_some_and(|index| index <= 2) {
                 return Err(Refused::axis(messages::SLAVE_IS_MAIN_AXIS, slave));
             }

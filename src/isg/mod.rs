@@ -23,7 +23,7 @@
 //!
 //! # Choices where the manuals are silent
 //!
-//! Each is a row of `docs/decisions.md`: P-80 to P-101, and those that the rules HG and SG name.
+//! Each is a row of `docs/decisions.md`: P-80 to P-101, P-107 to P-110, P-113 to P-115, and those that the rules HG and SG name.
 
 mod channel;
 mod charts;

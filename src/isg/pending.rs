@@ -38,6 +38,8 @@ pub(super) struct Pending {
     pub counts: Vec<MessageCount>,
     /// The event that ended the last ones.
     pub cleared: EventId,
+    /// Those that were raised in this cycle although they were pending, as a control reports each of them.
+    again: Vec<RaisedAlarm>,
     /// Texts that are too long for a parameter. They stay: the trace reads them later.
     texts: Vec<String>,
 }
@@ -90,11 +92,25 @@ impl Pending {
                 self.counts.push(MessageCount { number, place, other, is_warning, count: 1 });
             }
         }
-        let is_there = self.alarms.iter().any(|(pending, _)| *pending == alarm);
-        if !is_there && self.alarms.len() < PENDING {
+        if let Some((_, last)) = self.alarms.iter_mut().find(|(pending, _)| *pending == alarm) {
+            *last = cause;
+            if self.again.len() < PENDING {
+                self.again.push(alarm);
+            }
+        } else if self.alarms.len() < PENDING {
             self.alarms.push((alarm, cause));
             self.alarms.sort_by_key(|(alarm, _)| (alarm.number, place_order(alarm.place)));
         }
+    }
+
+    /// A new cycle begins.
+    pub(super) fn begin_cycle(&mut self) {
+        self.again.clear();
+    }
+
+    /// Those that were raised in this cycle although they were pending.
+    pub(super) fn raised_again(&self) -> &[RaisedAlarm] {
+        &self.again
     }
 
     /// A reset takes all but those that only a restart takes.

@@ -218,12 +218,16 @@ impl Machine {
     }
 
     fn record_alarms(&mut self) {
+        let cycle = self.state.cycle;
+        for &alarm in self.control.raised_again() {
+            let cause = self.control.alarm_cause(alarm.number, alarm.place);
+            self.recorder.push(Row { cycle, change: Change::Alarm { alarm, raised: true, cause } });
+        }
         let same = self.alarms_before.len() == self.state.variables.alarms.count()
             && self.alarms_before.iter().zip(self.state.variables.alarms.iter()).all(|(old, new)| old == new);
         if same {
             return;
         }
-        let cycle = self.state.cycle;
         for &alarm in &self.alarms_before {
             if !self.state.variables.alarms.iter().any(|other| *other == alarm) {
                 let cause = self.control.cleared_cause(alarm.number, alarm.place);

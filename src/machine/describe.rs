@@ -1,6 +1,7 @@
 //! Texts for the numbers of this machine's control, and the meaning of names in expressions.
 
 use super::Machine;
+use crate::control::AlarmRow;
 use crate::expression::Scope;
 use crate::image::{Location, Names};
 use crate::motion::Encoder;
@@ -45,6 +46,11 @@ impl Describe for Machine {
 
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
         self.control.texts().alarm_named(name)
+    }
+
+    fn alarm_names(&self) -> Vec<String> {
+        let own = |row: &AlarmRow| row.number.0 >= AlarmNumber::OWN;
+        self.control.texts().alarms().into_iter().filter(own).map(|row| row.name).collect()
     }
 
     fn has_alarm(&self, number: AlarmNumber) -> bool {

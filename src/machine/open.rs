@@ -83,7 +83,13 @@ impl Machine {
             let axis = names.axes.iter().all(|(_, other)| other.as_deref() != Some(name)).then(|| names.axis(name));
             axis.flatten().and_then(|axis| names.axes[axis].clone())
         });
-        plant.check(&configuration.axis_names(), names.interface().tables().named_in, configuration.groupings())?;
+        let named_in = names.interface().tables().named_in;
+        plant.check(&configuration.axis_names(), named_in, configuration.groupings()).map_err(|problem| {
+            match configuration.not_used() {
+                Some((reason, cure)) => Problem { what: format!("{}; {reason}", problem.what), cure, ..problem },
+                None => problem,
+            }
+        })?;
         check_cycle_times(control.cycle_times(), control.texts().cycle_data())?;
         let memory = match &options.preset {
             Some(preset) => Memory::from_preset(preset, &names, control.override_coding())?,

@@ -107,6 +107,10 @@ pub trait Describe {
     fn alarm_name(&self, number: AlarmNumber) -> String;
     /// The number that stands for the name of an alarm.
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber>;
+    /// The names of all alarms that have no number, for suggestions. The default is none.
+    fn alarm_names(&self) -> Vec<String> {
+        Vec::new()
+    }
     /// Whether the control defines an alarm with this number.
     fn has_alarm(&self, _: AlarmNumber) -> bool {
         true

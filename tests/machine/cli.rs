@@ -439,6 +439,29 @@ fn machine_data_are_checked_with_file_line_and_identifier() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// HG-28, 110076: the list and the table of `plant.toml` that misses its axis are in one error. Entries without an effect have a heading.
+#[test]
+fn a_list_with_the_number_0_is_named_with_the_axis_that_plant_toml_misses() {
+    let directory = directory("logical_number_0");
+    let machine = directory.join("m");
+    fs::create_dir(&machine).unwrap();
+    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/machine_data/isg_hard_gantry")).unwrap() {
+        let entry = entry.unwrap();
+        fs::copy(entry.path(), machine.join(entry.file_name())).unwrap();
+    }
+    let slave = fs::read_to_string(machine.join("axis_5.lis")).unwrap();
+    fs::write(machine.join("axis_5.lis"), slave.clone() + "\nkenngr.swe_pos 5\n").unwrap();
+    let output = opennck(&["machine-data", "check", "m"], &directory);
+    assert!(out(&output).contains("\n  entries that are not known here: 1 data, 1 values\n"), "{}", out(&output));
+    let number = slave.lines().find(|line| line.starts_with("kopf.achs_nr")).unwrap().to_owned();
+    fs::write(machine.join("axis_5.lis"), slave.replace(&number, "kopf.achs_nr 0")).unwrap();
+    let output = opennck(&["machine-data", "check", "m"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+    for part in ["m/plant.toml:8: ", "found `ax5`", "110076", "(axis_5.lis:2)", "kopf.achs_nr of this list"] {
+        assert!(out(&output).contains(part), "{part}: {}", out(&output));
+    }
+}
+
 /// The lines of a command's output that start with a text.
 fn lines<'a>(output: &'a str, start: &str) -> Vec<&'a str> {
     output.lines().filter(|line| line.starts_with(start)).collect()

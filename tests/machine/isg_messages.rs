@@ -39,12 +39,12 @@ const SOFT: &[Row] = &[
     (
         "\"ax8:kenngr.achs_typ\" = 2\n\"ax8:kenngr.achs_mode\" = 4",
         "N10 #SET AX LINK[3, Y2=Y1]\nN20 #ENABLE AX LINK[3]",
-        "20468  channel_1  raised  nck  Channel channel_1 block 20: master ax2 and slave ax8 have different axis types",
+        "20468  channel_1  raised  nck  Channel channel_1 block 20: master ax2 of group 3 and slave ax8 have different axis types",
     ),
     (
         "\"ax8:kenngr.achs_mode\" = 65",
         "N10 #SET AX LINK[3, Y2=Y1]\nN20 #ENABLE AX LINK[3]",
-        "20469  channel_1  raised  nck  Channel channel_1 block 20: master ax2 and slave ax8 have different axis modes",
+        "20469  channel_1  raised  nck  Channel channel_1 block 20: master ax2 of group 3 and slave ax8 have different axis modes",
     ),
     (
         "",
@@ -110,6 +110,21 @@ const SOFT: &[Row] = &[
         "",
         "N10 #SET AX LINK[3, Y2=Y1]\nN20 #ENABLE AX LINK[3]\nN30 #SET AX LINK[2, Z2=Y2]\nN40 #ENABLE AX LINK[2]",
         "21285  channel_1  raised  nck  Channel channel_1 block 40: master ax8 is a slave in the active group 3",
+    ),
+    (
+        "",
+        "N10 G02 G03 X1",
+        "20108  channel_1  raised  nck  Channel channel_1 block 10: more than one G function for the kind of movement: line 1, column 9: G02 and G03 stand in one block; a block has one G function for the kind of movement",
+    ),
+    (
+        "",
+        "$IF 0\nX1\n$ELSE\n$ELSE\n$ENDIF",
+        "20214  channel_1  raised  nck  Channel channel_1 block 4: $ELSE does not match the control block: line 4, column 1: the $IF has had its $ELSE already",
+    ),
+    (
+        "",
+        "N10 $GOTO N20\nN20: X1\nN20: X2",
+        "20836  channel_1  raised  nck  Channel channel_1 block 10: a label is defined more than once: line 1, column 5: the label N20: stands in line 2 and in line 3; labels of a program level differ",
     ),
     (
         "",

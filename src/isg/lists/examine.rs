@@ -67,6 +67,7 @@ fn unknown(list: &List, entry: &Unknown) -> Finding {
         datum: entry.name.clone(),
         value: entry.value.clone(),
         owner: list.owner(),
+        group: "entries that are not known here",
         ..Finding::new(class, what, cure)
     }
 }
@@ -86,6 +87,7 @@ fn not_modelled(list: &List, key: Key) -> Option<Finding> {
         datum: parameter.title(key.index),
         value: entry.value.to_string(),
         owner: list.owner(),
+        group: "known parameters without an effect",
         ..Finding::new(Class::NotModelled, what, "")
     })
 }

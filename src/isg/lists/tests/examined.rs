@@ -48,6 +48,9 @@ fn everything_about_the_files_is_reported() {
     ];
     assert_eq!(shown, expected);
     assert!(summary(&examined.findings).unwrap().starts_with("1 alarm at power on, 2 implausible"));
+    let groups: Vec<&str> = examined.findings.iter().skip(4).map(|finding| finding.group).collect();
+    let [unknown, known] = ["entries that are not known here", "known parameters without an effect"];
+    assert_eq!(groups, [unknown, unknown, known, known]);
 }
 
 /// HG-28: files that no machine can have are refused, with all reasons.
