@@ -39,7 +39,7 @@
 //!  plant.toml ──────> plant ───────── machine ──> trace ──> scenario ──> golden
 //!                              (step, save, fork)               └─────── cli
 //!                                        │
-//!                                      live (real time, inbox, copies) ──> s7 ──> clients
+//!                                      live (real time, inbox, copies) ──> s7, web ──> clients
 //! ```
 //!
 //! The control and the PLC program have no direct connection: they exchange the bytes of [`image`], as on a real machine. [`variables`]
@@ -74,6 +74,7 @@
 //! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |
+//! | [`web`] | the live page: a machine in real time in a browser (feature `web`) | `control`, `image`, `live`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`cli`] | the command line: its arguments, and the construction of all other parts (feature `cli`) | all |
 //!
 //! Every module works for any control, except these, which are for the SINUMERIK on purpose: [`sinumerik`], the tables in [`image`] that
@@ -170,3 +171,5 @@ pub mod source;
 pub mod trace;
 pub mod units;
 pub mod variables;
+#[cfg(feature = "web")]
+pub mod web;

@@ -33,7 +33,7 @@ pub use log::Log;
 pub use opening::{AxisHints, Configuration, EncoderModel, Examined, Opened, Read, Settings, Site, StoredDatum};
 pub use operator::{FunctionGenerator, SearchKind};
 pub use texts::{AlarmRow, ClearInfo, DatumRow, Texts};
-pub use transitions::{CHARTS, Chart, Edge, Rows, Taken, Transition, next, row};
+pub use transitions::{CHARTS, Chart, ChartPosition, Edge, Rows, Taken, Transition, next, row};
 pub use value::{Kind, Value};
 
 use std::any::Any;
@@ -363,6 +363,11 @@ pub trait Control: Send + Sync + Debug {
     /// The rows of the charts that were used, in the order of [`Texts::charts`]. The default is none, for a control without charts.
     fn taken(&self) -> Taken {
         Taken::default()
+    }
+
+    /// Where each part of the machine is in the charts. The default is none, for a control without charts.
+    fn chart_positions(&self) -> Vec<ChartPosition> {
+        Vec::new()
     }
 
     /// The complete state, as bytes.

@@ -3,6 +3,7 @@
 
 use std::fmt::Debug;
 
+use crate::units::AxisNumber;
 use crate::variables::RuleNumber;
 
 /// A transition from one phase to another by a rule.
@@ -65,6 +66,19 @@ impl Taken {
             rows.0 |= more.0;
         }
     }
+}
+
+/// Where a part of a machine is in a chart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ChartPosition {
+    /// The name of the chart.
+    pub chart: &'static str,
+    /// The axes of the part; of a gantry the leading axis first.
+    pub axes: Vec<AxisNumber>,
+    /// The identifier of the phase.
+    pub phase: String,
+    /// The name of the signal of the first axis that shows the aim of the chart; what it waits for is what the part waits for.
+    pub aim: &'static str,
 }
 
 /// A transition table in readable form.

@@ -6,7 +6,7 @@ use super::homing::run;
 use super::phases::{GANTRY, GANTRY_STEPS, GantryPhase, LINK, LINK_STEPS, LinkPhase};
 use super::rules::Why;
 use super::state::{AxisError, State};
-use crate::control::{Chart, Rows, Transition, next};
+use crate::control::{Chart, ChartPosition, Rows, Transition, next};
 use crate::motion::coupling::Coupling;
 
 /// Goes to a phase by the first row that leads there; without one the phase changes, and no row is used.
@@ -26,6 +26,23 @@ fn to<P: Copy + PartialEq + Default + std::fmt::Debug>(
 }
 
 impl State {
+    /// Where both kinds of gantry are in the charts.
+    pub(super) fn chart_positions(&self) -> Vec<ChartPosition> {
+        let hard = self.combinations.iter().map(|one| ChartPosition {
+            chart: "hard_gantry",
+            axes: one.coupling.members().collect(),
+            phase: format!("{:?}", one.phase),
+            aim: "gantry_coupled",
+        });
+        let soft = self.channels.iter().flat_map(|channel| &channel.groups).map(|group| ChartPosition {
+            chart: "soft_gantry",
+            axes: group.couplings.iter().flat_map(Coupling::members).collect(),
+            phase: format!("{:?}", group.phase),
+            aim: "gantry_coupled",
+        });
+        hard.chain(soft).collect()
+    }
+
     /// Notes the phases at the end of a cycle.
     pub(super) fn note_phases(&mut self) {
         for index in 0..self.combinations.len() {

@@ -13,8 +13,8 @@ use super::state::{Axis, AxisCauses, AxisError, State, Units};
 use super::texts::TEXTS;
 use super::{gantry, messages};
 use crate::control::{
-    Activated, Changes, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, PlcSide, Question, Taken,
-    Texts, Value,
+    Activated, Changes, ChartPosition, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, PlcSide,
+    Question, Taken, Texts, Value,
 };
 use crate::image::{Names, OverrideCoding, Signal, View};
 use crate::motion::{Feedback, Setpoint};
@@ -407,6 +407,10 @@ impl Control for Cnc {
 
     fn taken(&self) -> Taken {
         self.0.log.taken
+    }
+
+    fn chart_positions(&self) -> Vec<ChartPosition> {
+        self.0.chart_positions()
     }
 
     fn save(&self) -> Vec<u8> {

@@ -4,11 +4,14 @@
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use super::diagnosis::Buffer;
+use super::following::Collected;
+use super::history::History;
 use super::inbox::Order;
 use super::record::Recording;
 use super::seen::Seen;
 use crate::machine::Machine;
 use crate::scenario::{Operator, State};
+use crate::source::Problem;
 use crate::trace::{Trace, Watch};
 use crate::units::Time;
 
@@ -27,6 +30,10 @@ pub(super) struct Clocked {
     /// The most bytes of memory for the trace; `None` when they are used up.
     trace_bytes: Option<usize>,
     pub(super) operator: Option<Operator>,
+    /// The record for a server that follows the machine.
+    pub(super) collected: Option<Collected>,
+    /// The last minutes.
+    pub(super) history: Option<History>,
 }
 
 /// The trace that is kept, and the most bytes of memory for it.
@@ -51,7 +58,9 @@ impl Clocked {
         });
         let set = today();
         let (diagnosis, set_at) = (Buffer::new(&machine, set), machine.time());
-        Self { diagnosis, set, set_at, steps: 0, machine, recording, trace, trace_bytes, operator }
+        let (collected, history) = (None, None);
+        let steps = 0;
+        Self { diagnosis, set, set_at, steps, machine, recording, trace, trace_bytes, operator, collected, history }
     }
 
     /// The number of steps taken since the start.
@@ -93,7 +102,7 @@ impl Clocked {
 
     /// Takes one step. Returns a log line if the scenario or the trace ended in this step.
     pub(super) fn step(&mut self) -> Vec<String> {
-        let Self { machine, steps, recording, trace, trace_bytes, operator, .. } = self;
+        let Self { machine, steps, recording, trace, trace_bytes, operator, collected, history, .. } = self;
         let mut lines = Vec::new();
         let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
         if was_at_work && let Some(operator) = operator {
@@ -105,6 +114,12 @@ impl Clocked {
                 if let Some(recording) = recording {
                     recording.note(&note);
                 }
+                if let Some(collected) = collected {
+                    collected.note(machine, &note);
+                }
+                if let Some(history) = history {
+                    history.note(&note);
+                }
             }
             if let Some(recording) = recording {
                 recording.remark(queued, "the scenario".to_owned());
@@ -113,8 +128,14 @@ impl Clocked {
         if let Some(recording) = recording {
             recording.edge(machine);
         }
+        if let Some(history) = history {
+            history.edge(machine);
+        }
         machine.step();
         *steps += 1;
+        if let Some(collected) = collected {
+            collected.extend(machine);
+        }
         if let (Some((trace, _)), &mut Some(most)) = (trace, &mut *trace_bytes) {
             trace.extend(machine.recorder());
             trace.note_fault(machine.recorder(), machine.program_fault());
@@ -137,6 +158,24 @@ impl Clocked {
             Some(State::Failed(failure)) => Some(format!("the scenario failed: {failure}")),
         });
         lines
+    }
+
+    /// Goes back to the end of a cycle, instead of a step. A scenario that was running ends.
+    pub(super) fn go_back(&mut self, cycle: u64) -> Result<(), Problem> {
+        self.steps += 1;
+        let cure = "start the machine without the option: what it writes cannot be taken back";
+        for (is_on, option) in [(self.recording.is_some(), "--record"), (self.trace.is_some(), "--trace")] {
+            if is_on {
+                return Err(Problem::new(format!("the machine cannot go back in time: it runs with {option}"), cure));
+            }
+        }
+        let Some(history) = &mut self.history else {
+            return Err(Problem::new("the machine cannot go back in time: it keeps no history", "start it with --web"));
+        };
+        self.machine = history.back_to(cycle)?;
+        self.operator = None;
+        self.collected = self.collected.take().map(|_| Collected::new(&self.machine));
+        Ok(())
     }
 
     /// Adds the CPU events of a step to the diagnostic buffer.

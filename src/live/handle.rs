@@ -3,10 +3,14 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::following::{Collected, Follower};
+use super::history::Reach;
 use super::inbox::Order;
 use super::seen::Seen;
-use super::shared::{Pace, Shared};
+use super::shared::{Pace, Return, Shared};
 use super::speed::Speed;
+use crate::scenario::{Stage, State};
+use crate::source::Problem;
 
 /// A server's access to a live machine. A clone refers to the same machine. Only `async` functions wait for a step that takes long.
 #[derive(Clone, Debug)]
@@ -31,10 +35,10 @@ impl Handle {
     }
 
     /// Waits until an order can be acknowledged: until its step has ended. A client that writes and then reads therefore gets what it
-    /// wrote. A machine that is held acknowledges orders at once, unless very many are queued. Returns false if the machine ended first:
+    /// wrote. A machine that is held or pauses acknowledges orders at once, unless very many are queued. Returns false if the machine ended first:
     /// the order was not executed.
     pub async fn taken_up(&self, step: u64) -> bool {
-        self.0.is_held() && !self.is_crowded() || self.over(step).await
+        (self.0.is_held() || self.is_paused()) && !self.is_crowded() || self.over(step).await
     }
 
     /// Waits until a step has ended. A server that follows the machine waits for the step after the one it has seen, and may then find an
@@ -71,6 +75,76 @@ impl Handle {
     #[must_use]
     pub fn speed(&self) -> Speed {
         self.0.speed()
+    }
+
+    /// Changes the speed, from the next step on.
+    pub fn set_speed(&self, speed: Speed) {
+        self.0.driving.set_speed(speed);
+    }
+
+    /// Pauses after the current step, or goes on.
+    pub fn pause(&self, is_paused: bool) {
+        self.0.driving.pause(is_paused);
+    }
+
+    /// Pauses, and takes this number of steps more as fast as possible.
+    pub fn step(&self, count: u64) {
+        self.0.driving.step(count);
+    }
+
+    /// Whether the machine pauses.
+    #[must_use]
+    pub fn is_paused(&self) -> bool {
+        self.0.driving.is_paused()
+    }
+
+    /// Follows the machine from now on. A machine has one follower; another one takes its place.
+    #[must_use]
+    pub fn follow(&self) -> Follower {
+        let mut lent = self.0.lend();
+        lent.collected = Some(Collected::new(&lent.machine));
+        drop(lent);
+        Follower::new(Arc::clone(&self.0))
+    }
+
+    /// The moments to which the machine can go back.
+    ///
+    /// # Errors
+    /// The machine keeps no history, or cannot be copied.
+    pub fn reach(&self) -> Result<Reach, Problem> {
+        let no_history = || Problem::new("the machine keeps no history", "start it with a history");
+        self.0.lend().history.as_ref().ok_or_else(no_history)?.reach()
+    }
+
+    /// Goes back to the end of a cycle of the last minutes, and pauses there. What happened later is forgotten; a scenario that was running
+    /// ends. It counts as a step; orders that were queued for it take effect in the next one.
+    ///
+    /// # Errors
+    /// The cycle is older than the history or has not been yet, or the machine ends.
+    pub async fn go_back(&self, cycle: u64) -> Result<(), Problem> {
+        let (answer, answered) = tokio::sync::oneshot::channel();
+        self.0.ask_to_return(Return { cycle, answer });
+        let nothing = || Problem::new("the machine did not go back: it ended, or went to another moment", "ask again");
+        answered.await.unwrap_or_else(|_| Err(nothing()))
+    }
+
+    /// Everything since power on as a scenario that repeats it; `None` if the machine keeps no history.
+    #[must_use]
+    pub fn scenario(&self) -> Option<String> {
+        let lent = self.0.lend();
+        lent.history.as_ref()?.scenario(lent.machine.cycle())
+    }
+
+    /// The state of the scenario that runs on the machine, and the index of its step; `None` if there is none.
+    #[must_use]
+    pub fn scenario_state(&self) -> Option<(State, usize)> {
+        self.0.lend().operator.as_ref().map(|operator| (operator.state().clone(), operator.index()))
+    }
+
+    /// The steps of the scenario that runs on the machine.
+    #[must_use]
+    pub fn scenario_steps(&self) -> Vec<Stage> {
+        self.0.lend().operator.as_ref().map_or_else(Vec::new, |operator| operator.stages())
     }
 
     /// How well the schedule has been kept so far.

@@ -8,6 +8,9 @@
 //!   recorded there, so a session with clients can be repeated as a scenario. The call returns the number of that step. The order is
 //!   acknowledged when [`Handle::taken_up`] completes: a look then shows its effect.
 //! * It follows. [`Handle::over`] waits for a step by its number. A server that does not wait can look at any time.
+//! * It drives. [`Handle::pause`], [`Handle::step`] and [`Handle::set_speed`] act from the next step on; [`Handle::go_back`] returns to a
+//!   moment of the last minutes.
+//! * One server can receive everything that happens: [`Handle::follow`].
 //! * It ends before the machine. Its owner ends the server, the server drops its handle, then the machine ends ([`Live::end`] returns the
 //!   machine only when no handle is left). If the machine ends first, [`Handle::over`] and [`Handle::taken_up`] return false at once, and
 //!   [`Handle::has_ended`] is true.
@@ -34,7 +37,8 @@
 //! ```
 //!
 //! `stepping.rs` has the thread and its schedule, `shared.rs` the data shared between threads, `clocked.rs` the machine with its clock and
-//! recording, `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary, `opening.rs` the inputs from which a
+//! recording, `driving.rs` its speed and pauses, `following.rs` the record for a server that follows, `history.rs` the last minutes,
+//! `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary, `opening.rs` the inputs from which a
 //! machine is opened, `record.rs` the recording. `MappedPlc` (feature `mapped`) is a PLC program in another
 //! process, `plc_process.rs` starts and ends this process for a scenario.
 
@@ -42,7 +46,10 @@
 
 mod clocked;
 mod diagnosis;
+mod driving;
+mod following;
 mod handle;
+mod history;
 mod inbox;
 #[cfg(feature = "mapped")]
 mod mapped_plc;
@@ -57,7 +64,9 @@ mod stepping;
 mod urgency;
 
 pub use diagnosis::{Entry, Event};
+pub use following::{Batch, Follower};
 pub use handle::Handle;
+pub use history::Reach;
 pub use inbox::Order;
 #[cfg(feature = "mapped")]
 pub use mapped_plc::{Exchange, Keeper, MappedPlc};

@@ -10,7 +10,7 @@ use super::record::Recording;
 use crate::image::{Preset, Profile};
 use crate::machine::{DatumValue, Machine, OpenOptions};
 use crate::plc::{Programs, step7};
-use crate::scenario::{Heading, Named, Operator, Scenario, profile_named};
+use crate::scenario::{Heading, Named, Operator, Scenario, Transcript, profile_named};
 use crate::source::{Place, Problem, Table, unreadable};
 use crate::trace::Watch;
 
@@ -161,6 +161,19 @@ impl Opened {
     /// # Errors
     /// As for [`Recording::begin`], or the recording could not refer to the machine from its folder.
     pub fn record(&self, path: &Path) -> Result<Recording, Problem> {
+        self.headed(path, |heading| Recording::begin(path, heading, &self.machine))?
+    }
+
+    /// Begins a transcript for a file in this folder, which need not be written.
+    ///
+    /// # Errors
+    /// As for [`Opened::record`].
+    pub fn transcript(&self, path: &Path) -> Result<Transcript, Problem> {
+        self.headed(path, Transcript::begin)
+    }
+
+    /// Makes something with the heading of a scenario in this file.
+    fn headed<T>(&self, path: &Path, make: impl FnOnce(&Heading<'_>) -> T) -> Result<T, Problem> {
         if let Some(command) = &self.plc_process {
             let what = format!("expected a PLC program that a recording can repeat, found the process `{command}`");
             return Err(
@@ -184,7 +197,7 @@ impl Opened {
             plant: self.plant.as_ref(),
             machine_data: &self.machine_data,
         };
-        Recording::begin(path, &heading, &self.machine)
+        Ok(make(&heading))
     }
 }
 

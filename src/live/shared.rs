@@ -5,12 +5,15 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::Duration;
 
-use tokio::sync::watch;
+use tokio::sync::{oneshot, watch};
 
 use super::clocked::Clocked;
+use super::driving::Driving;
+use super::following::Counter;
 use super::inbox::Inbox;
 use super::seen::{Seen, View};
 use super::speed::Speed;
+use crate::source::Problem;
 
 /// How often a caller that does not wait tries the lock.
 const TRIES: u32 = 40;
@@ -30,6 +33,13 @@ pub struct Pace {
     pub lost: Duration,
 }
 
+/// A request to go back to the end of a cycle.
+#[derive(Debug)]
+pub(super) struct Return {
+    pub(super) cycle: u64,
+    pub(super) answer: oneshot::Sender<Result<(), Problem>>,
+}
+
 /// The data shared between the stepping thread and all other threads.
 #[derive(Debug)]
 pub(super) struct Shared {
@@ -40,8 +50,6 @@ pub(super) struct Shared {
     pub(super) inbox: Inbox,
     /// A scan may wait for a process, so each step is copied before the next one begins.
     is_lock_step: bool,
-    /// Whether the stepping thread copies steps. Above real time few of the steps are read, and the reader copies them.
-    is_real_time: bool,
     /// The number of threads that wait for the lock.
     waiting: AtomicUsize,
     /// The number of completed steps.
@@ -49,7 +57,13 @@ pub(super) struct Shared {
     overruns: AtomicU64,
     worst: AtomicU64,
     lost: AtomicU64,
-    speed: Speed,
+    /// Its speed, and whether it pauses.
+    pub(super) driving: Driving,
+    /// Where its record is handed over.
+    pub(super) counter: Counter,
+    /// The request to go back in time.
+    return_asked: Mutex<Option<Return>>,
+    is_return_asked: AtomicBool,
     /// It takes no steps yet.
     is_held: AtomicBool,
     /// It takes no more steps.
@@ -62,14 +76,16 @@ impl Shared {
             view: View::new(clocked.seen()),
             inbox: Inbox::new(),
             is_lock_step,
-            is_real_time: speed <= Speed::default(),
             steps: watch::Sender::new(0),
             clocked: Mutex::new(clocked),
             waiting: AtomicUsize::new(0),
             overruns: AtomicU64::new(0),
             worst: AtomicU64::new(0),
             lost: AtomicU64::new(0),
-            speed,
+            driving: Driving::new(speed),
+            counter: Counter::default(),
+            return_asked: Mutex::new(None),
+            is_return_asked: AtomicBool::new(false),
             is_held: AtomicBool::new(is_held),
             has_ended: AtomicBool::new(false),
         }
@@ -107,7 +123,21 @@ impl Shared {
 
     /// The requested speed relative to real time.
     pub(super) fn speed(&self) -> Speed {
-        self.speed
+        self.driving.speed()
+    }
+
+    /// Asks the stepping thread to go back. A request that waits already is replaced, and its sender is told so.
+    pub(super) fn ask_to_return(&self, asked: Return) {
+        *self.return_asked.lock().unwrap_or_else(PoisonError::into_inner) = Some(asked);
+        self.is_return_asked.store(true, Ordering::Release);
+    }
+
+    /// The request to go back, if there is one; called before each step.
+    pub(super) fn take_return(&self) -> Option<Return> {
+        if !self.is_return_asked.swap(false, Ordering::AcqRel) {
+            return None;
+        }
+        self.return_asked.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
     /// Locks the machine between two steps.
@@ -158,9 +188,17 @@ impl Shared {
     }
 
     /// Ends a step: unlocks the machine and shows the step to readers.
-    pub(super) fn give_back(&self, clocked: MutexGuard<'_, Clocked>) {
-        let is_shown = self.is_lock_step || self.is_real_time && self.view.is_looked_at();
+    pub(super) fn give_back(&self, mut clocked: MutexGuard<'_, Clocked>) {
+        // Above real time few of the steps are read, and the reader copies them.
+        let is_shown = self.is_lock_step || self.speed() <= Speed::default() && self.view.is_looked_at();
         let (step, shown) = (clocked.steps(), is_shown.then(|| clocked.seen()));
+        if self.counter.is_asked() {
+            let seen = clocked.seen();
+            let Clocked { collected, machine, .. } = &mut *clocked;
+            if let Some(collected) = collected {
+                self.counter.put(collected.hand_over(machine, seen));
+            }
+        }
         drop(clocked);
         self.view.over(step, shown);
         self.steps.send_replace(step);

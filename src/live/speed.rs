@@ -13,6 +13,21 @@ impl Default for Speed {
 }
 
 impl Speed {
+    /// The factor: 1 is real time.
+    #[must_use]
+    pub fn ratio(self) -> f64 {
+        f64::from(self.0) / 1000.0
+    }
+
+    pub(super) fn thousandths(self) -> u32 {
+        self.0
+    }
+
+    /// The speed of a number that [`Speed::thousandths`] returned.
+    pub(super) fn of_thousandths(thousandths: u32) -> Self {
+        Self(thousandths)
+    }
+
     /// The real time that corresponds to a simulated time in nanoseconds.
     pub(super) fn real(self, simulated: u128) -> Duration {
         Duration::from_nanos(u64::try_from(simulated * 1000 / u128::from(self.0)).unwrap_or(u64::MAX))

@@ -12,12 +12,13 @@ use std::time::{Duration, Instant};
 
 use super::clocked::{Clocked, Kept};
 use super::handle::Handle;
+use super::history::History;
 use super::record::Recording;
-use super::shared::{Pace, Shared};
+use super::shared::{Pace, Return, Shared};
 use super::speed::Speed;
 use super::urgency::Urgency;
 use crate::machine::Machine;
-use crate::scenario::{Operator, State};
+use crate::scenario::{Operator, State, Transcript};
 use crate::trace::{Trace, Watch};
 use crate::variables::{Describe, RaisedAlarm};
 
@@ -29,6 +30,8 @@ const TRACE_BYTES: usize = 1 << 30;
 const EXACT: Duration = Duration::from_millis(1);
 /// Polling interval of a machine that is held.
 const HELD: Duration = Duration::from_millis(1);
+/// The longest pause between two steps without a look at the speed.
+const LOOK: Duration = Duration::from_millis(20);
 
 /// A machine that runs in real time until it is dropped. Servers connect through its [`handle`](Live::handle) and end before it.
 #[derive(Debug)]
@@ -53,6 +56,10 @@ pub struct LiveOptions {
     pub is_held: bool,
     /// Its scans may wait for a process: each step is shown to clients before the next one waits.
     pub is_lock_step: bool,
+    /// Keeps the last minutes, so that the machine can go back in time.
+    pub keeps_history: bool,
+    /// Everything since power on as a scenario; it grows with the history.
+    pub transcript: Option<Transcript>,
 }
 
 /// The result of a machine that has ended.
@@ -82,13 +89,14 @@ impl Live {
     /// Starts a machine with options.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
-        let LiveOptions { recording, trace, trace_bytes, operator, is_held, is_lock_step } = options;
+        let LiveOptions { recording, trace, trace_bytes, operator, is_held, is_lock_step, .. } = options;
         let trace = trace.map(|watch| Kept { watch, bytes: trace_bytes.unwrap_or(TRACE_BYTES) });
-        let clocked = Clocked::new(machine, recording, trace, operator);
+        let mut clocked = Clocked::new(machine, recording, trace, operator);
+        clocked.history = options.keeps_history.then(|| History::new(options.transcript));
         let shared = Arc::new(Shared::new(clocked, speed, is_held, is_lock_step));
         let (end, ended) = mpsc::channel();
         let stepped = Arc::clone(&shared);
-        let thread = std::thread::spawn(move || run(&stepped, speed, &ended));
+        let thread = std::thread::spawn(move || run(&stepped, &ended));
         Self { shared, end: Some(end), thread: Some(thread) }
     }
 
@@ -196,28 +204,42 @@ impl Drop for End<'_> {
 }
 
 /// Steps a machine until the end.
-fn run(shared: &Shared, speed: Speed, ended: &mpsc::Receiver<()>) {
+fn run(shared: &Shared, ended: &mpsc::Receiver<()>) {
     let _end = End(shared);
     while shared.is_held() {
         if ended.recv_timeout(HELD) != Err(RecvTimeoutError::Timeout) {
             return;
         }
     }
+    let driving = &shared.driving;
+    let (mut speed, mut changes) = (driving.speed(), driving.changes());
     let mut begin = Instant::now();
     let mut simulated = 0_u128; // nanoseconds since then
     let mut alarms = Vec::new();
     let mut urgency = Urgency::new(speed);
     loop {
+        if let Some(asked) = shared.take_return() {
+            go_back(shared, asked);
+        }
+        if !driving.may_step() {
+            if ended.recv_timeout(HELD) != Err(RecvTimeoutError::Timeout) {
+                return;
+            }
+            continue;
+        }
+        if driving.changes() != changes {
+            (speed, changes) = (driving.speed(), driving.changes());
+            (begin, simulated) = (Instant::now(), 0);
+        }
         let period = step(shared, &mut alarms);
+        if driving.is_paused() {
+            // Single steps have no schedule.
+            continue;
+        }
         simulated += period;
         let due = begin + speed.real(simulated);
         let ahead = due.saturating_duration_since(Instant::now());
-        let is_ended = if ahead.is_zero() {
-            ended.try_recv() != Err(TryRecvError::Empty)
-        } else {
-            ended.recv_timeout(ahead) != Err(RecvTimeoutError::Timeout)
-        };
-        if is_ended {
+        if waits_in_vain(due, ended, || driving.changes() != changes) {
             return;
         }
         urgency.note(!ahead.is_zero());
@@ -230,6 +252,36 @@ fn run(shared: &Shared, speed: Speed, ended: &mpsc::Receiver<()>) {
             }
         }
     }
+}
+
+/// Waits until a step is due, or the speed changes. Returns whether the machine ends.
+fn waits_in_vain(due: Instant, ended: &mpsc::Receiver<()>, is_changed: impl Fn() -> bool) -> bool {
+    loop {
+        let ahead = due.saturating_duration_since(Instant::now());
+        if ahead.is_zero() {
+            return ended.try_recv() != Err(TryRecvError::Empty);
+        }
+        if ended.recv_timeout(ahead.min(LOOK)) != Err(RecvTimeoutError::Timeout) {
+            return true;
+        }
+        if is_changed() {
+            return false;
+        }
+    }
+}
+
+/// Goes back in time instead of taking a step, and pauses there.
+fn go_back(shared: &Shared, asked: Return) {
+    shared.driving.pause(true);
+    let mut clocked = shared.lend_for_a_step();
+    let orders = shared.inbox.take();
+    let went = clocked.go_back(asked.cycle);
+    let refused = clocked.take(orders);
+    shared.give_back(clocked);
+    for line in refused {
+        tracing::info!("{line}");
+    }
+    let _ = asked.answer.send(went);
 }
 
 /// Takes one step; returns the nanoseconds of its cycle.

@@ -61,6 +61,11 @@ impl Machine {
         &self.state.queue
     }
 
+    /// Removes the queued commands before they take effect.
+    pub fn forget_queued(&mut self) {
+        self.state.queue.clear();
+    }
+
     /// Executes the queued commands.
     pub(super) fn take_commands(&mut self) {
         self.before.written.clear();

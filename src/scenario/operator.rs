@@ -4,6 +4,7 @@ use super::failure::Failure;
 use super::passing::{Book, Next, Progress};
 use super::steps::{Action, Included, Step, Steps};
 use crate::machine::Machine;
+use crate::source::Place;
 
 /// The steps and the progress through them.
 pub(super) struct Plan {
@@ -133,6 +134,15 @@ pub struct Operator {
     state: State,
 }
 
+/// A step of a scenario, for a list of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stage {
+    /// Where it is written.
+    pub place: Place,
+    /// Its note.
+    pub note: Option<String>,
+}
+
 /// The progress of an operator.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum State {
@@ -178,6 +188,19 @@ impl Operator {
     /// Ends the scenario with a failure, which also names the rules that were broken before.
     fn fail(&mut self, failure: Failure, machine: &Machine) {
         self.state = self.book.finish(Some(failure), machine).map_or(State::Done, State::Failed);
+    }
+
+    /// Its steps, with those that it includes.
+    #[must_use]
+    pub fn stages(&self) -> Vec<Stage> {
+        let stage = |step: &Step| Stage { place: step.place.clone(), note: step.note.as_deref().map(str::to_owned) };
+        self.plan.steps.steps.iter().map(stage).collect()
+    }
+
+    /// The index of the step that is executed; the number of steps if all are done.
+    #[must_use]
+    pub fn index(&self) -> usize {
+        self.plan.index
     }
 
     /// The progress so far.

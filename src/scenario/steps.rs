@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         Ok(expression)
     }
 
-    fn step(&mut self, mut table: Table, place: Place, note: Option<Box<str>>) -> Result<Step, Problem> {
+    pub(super) fn step(&mut self, mut table: Table, place: Place, note: Option<Box<str>>) -> Result<Step, Problem> {
         let mut verbs = Vec::new();
         for verb in VERBS {
             if let Some(node) = table.take(verb) {

@@ -3,8 +3,8 @@
 use std::any::Any;
 
 use crate::control::{
-    Activated, Changes, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner, PlcSide,
-    Question, Taken, Texts,
+    Activated, Changes, ChartPosition, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner,
+    PlcSide, Question, Taken, Texts,
 };
 use crate::image::{FromNck, Hmi, Names, NckHmi, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
@@ -256,6 +256,10 @@ impl Control for Nck {
 
     fn taken(&self) -> Taken {
         self.taken_transitions()
+    }
+
+    fn chart_positions(&self) -> Vec<ChartPosition> {
+        self.chart_positions()
     }
 
     fn save(&self) -> Vec<u8> {

@@ -16,6 +16,7 @@ mod alarms;
 mod awake;
 mod axis;
 mod boundary;
+mod chart_positions;
 mod commissioning;
 mod compensation;
 mod exchange;

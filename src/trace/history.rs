@@ -106,6 +106,17 @@ impl Trace {
         }
     }
 
+    /// An empty trace that follows this one, with its symbols and its last events, to which later changes refer.
+    #[must_use]
+    pub fn continued(&self, memory: &Memory, cycle_time: Time, cycle: u64, time: Time) -> Self {
+        /// More than a control keeps itself.
+        const LAST: usize = 1024;
+        let mut next = Self::begin(memory, cycle_time, cycle, time);
+        next.events.extend_from_slice(&self.events[self.events.len().saturating_sub(LAST)..]);
+        next.name_program(&self.symbols);
+        next
+    }
+
     /// Areas and data blocks that a program brought before the first cycle.
     pub fn remember(&mut self, memory: &Memory) {
         if self.bits.is_empty() {

@@ -114,6 +114,15 @@ pub(crate) struct Arguments {
     /// Serves metrics for Prometheus at http://ADDR:PORT/metrics; a port alone binds to this computer only.
     #[arg(long, value_name = "[ADDR:]PORT", value_parser = address)]
     pub(super) metrics: Option<String>,
+    /// Serves the live page at http://ADDR:PORT/: the machine in a browser. A port alone binds to this computer only; from another computer,
+    /// writes need the token in the address that is printed at the start.
+    #[cfg(feature = "web")]
+    #[arg(long, value_name = "[ADDR:]PORT", value_parser = address)]
+    pub(super) web: Option<String>,
+    /// With --web: a further name of this computer in the address of the page; may be given several times.
+    #[cfg(feature = "web")]
+    #[arg(long, value_name = "NAME", requires = "web")]
+    pub(super) web_host: Vec<String>,
     /// Also logs the writes of clients: client, address, value.
     #[arg(long)]
     pub(super) log_writes: bool,

@@ -7,6 +7,8 @@ mod arguments;
 mod banner;
 mod handles;
 mod status;
+#[cfg(feature = "web")]
+mod web;
 
 pub(super) use arguments::Arguments;
 
@@ -51,6 +53,9 @@ pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Out
 struct Served {
     /// Closed before the machine ends.
     server: LiveServer,
+    /// Likewise.
+    #[cfg(feature = "web")]
+    page: Option<crate::web::WebServer>,
     /// Also ended before the machine.
     keeper: Option<Keeper>,
     live: Live,
@@ -64,6 +69,8 @@ struct Served {
 impl Served {
     /// Ends in this order: clients can no longer write, the machine takes its last step, the trace is written.
     fn close(self) -> Result<(), Problem> {
+        #[cfg(feature = "web")]
+        drop(self.page);
         let Self { server, keeper, live, trace, .. } = self;
         drop(server);
         drop(keeper);
@@ -109,11 +116,16 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let trace = arguments.trace.as_deref().map(|path| trace_file(path, &opened, arguments)).transpose()?;
     // The recording is opened last: if opening failed after it, the new file would block the next attempt.
     let recording = arguments.record.as_deref().map(|path| opened.record(path)).transpose()?;
+    #[cfg(feature = "web")]
+    let (page, history) =
+        (web::options(arguments, &opened, &terms), web::with_history(LiveOptions::default(), arguments, &opened));
+    #[cfg(not(feature = "web"))]
+    let history = LiveOptions::default();
     let Opened { machine, operator, watch, .. } = opened;
     let (is_held, is_lock_step) = (arguments.lock_step, arguments.lock_step);
     let trace_of = trace.is_some().then_some(watch);
     let trace_bytes = usize::try_from(arguments.trace_limit).ok().and_then(|mib| mib.checked_mul(1024 * 1024));
-    let options = LiveOptions { recording, trace: trace_of, trace_bytes, operator, is_held, is_lock_step };
+    let options = LiveOptions { recording, trace: trace_of, trace_bytes, operator, is_held, is_lock_step, ..history };
     let start = |machine| Live::start_with(machine, arguments.speed, options);
     let (live, keeper) = match mapped {
         Some(mapped) => {
@@ -136,12 +148,27 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
             return Err(problem);
         }
     };
+    #[cfg(feature = "web")]
+    let page = match web::open(&live, page) {
+        Ok(page) => page,
+        Err(problem) => {
+            drop(server);
+            drop(keeper);
+            drop(live);
+            let _ = arguments.record.as_ref().map(std::fs::remove_file);
+            return Err(problem);
+        }
+    };
     if let Some(warning) = arguments.warning(server.addresses()) {
         output.warning(warning);
     }
     head += &banner::endpoints(server.addresses(), arguments, &terms);
     for address in server.metrics_addresses() {
         head += &format!("metrics on http://{address}/metrics\n");
+    }
+    #[cfg(feature = "web")]
+    {
+        head += &web::banner(page.as_ref());
     }
     if let Some(file) = arguments.image.as_deref().filter(|_| arguments.lock_step) {
         head += &waiting(file);
@@ -150,7 +177,16 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         head += &format!("injected faults: {faults}\n");
     }
     head += "press Ctrl-C to stop\n";
-    Ok(Served { server, keeper, live, status, head, trace })
+    Ok(Served {
+        server,
+        #[cfg(feature = "web")]
+        page,
+        keeper,
+        live,
+        status,
+        head,
+        trace,
+    })
 }
 
 /// The hint about what the first step waits for.

@@ -1,0 +1,116 @@
+//! Everything that happens, for a server that follows the machine: the record of all steps since it last asked, and the machine after the
+//! last of them. The stepping thread collects the record and hands it over at the end of a step; it never waits for the server. If nobody
+//! asks for long, the record is dropped, and the next one begins anew.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tokio::sync::Notify;
+
+use super::seen::Seen;
+use super::shared::Shared;
+use crate::machine::Machine;
+use crate::trace::Trace;
+use crate::units::Time;
+
+/// The most bytes of a record that nobody asks for.
+const MOST: usize = 4 << 20;
+
+/// The record of some steps, and the machine after them.
+#[derive(Debug)]
+pub struct Batch {
+    /// What happened, with the notes of the scenario.
+    pub trace: Trace,
+    /// The time of the machine at the time zero of the trace.
+    pub begin: Time,
+    /// The machine after the last step.
+    pub seen: Box<Seen>,
+    /// The trace does not continue the one before: changes were lost, or the machine went back in time.
+    pub is_new: bool,
+}
+
+/// Collects the record of a followed machine.
+#[derive(Debug)]
+pub(super) struct Collected {
+    trace: Trace,
+    begin: Time,
+    is_new: bool,
+}
+
+impl Collected {
+    pub(super) fn new(machine: &Machine) -> Self {
+        let begin = machine.time();
+        let trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), begin);
+        Self { trace, begin, is_new: true }
+    }
+
+    /// A note that belongs to the next step.
+    pub(super) fn note(&mut self, machine: &Machine, text: &str) {
+        self.trace.note(machine.cycle() + 1, text);
+    }
+
+    /// Takes over the record of a step, before it is drained.
+    pub(super) fn extend(&mut self, machine: &Machine) {
+        self.trace.extend(machine.recorder());
+        self.trace.note_fault(machine.recorder(), machine.program_fault());
+        self.trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
+        if self.trace.bytes() > MOST {
+            *self = Self::new(machine);
+        }
+    }
+
+    /// Hands over what is collected, and begins to collect what follows.
+    pub(super) fn hand_over(&mut self, machine: &Machine, seen: Box<Seen>) -> Batch {
+        let begin = machine.time();
+        let next = self.trace.continued(machine.memory(), machine.cycle_time(), machine.cycle(), begin);
+        let trace = std::mem::replace(&mut self.trace, next);
+        let begin = std::mem::replace(&mut self.begin, begin);
+        Batch { trace, begin, seen, is_new: std::mem::take(&mut self.is_new) }
+    }
+}
+
+/// Where a record is handed over.
+#[derive(Debug, Default)]
+pub(super) struct Counter {
+    is_asked: AtomicBool,
+    batch: Mutex<Option<Batch>>,
+    arrived: Notify,
+}
+
+impl Counter {
+    pub(super) fn is_asked(&self) -> bool {
+        self.is_asked.load(Ordering::Acquire)
+    }
+
+    pub(super) fn put(&self, batch: Batch) {
+        *self.batch.lock().unwrap_or_else(PoisonError::into_inner) = Some(batch);
+        self.is_asked.store(false, Ordering::Release);
+        self.arrived.notify_one();
+    }
+
+    fn take(&self) -> Option<Batch> {
+        self.batch.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}
+
+/// Follows a live machine. There is one for each machine.
+#[derive(Debug)]
+pub struct Follower(Arc<Shared>);
+
+impl Follower {
+    pub(super) fn new(shared: Arc<Shared>) -> Self {
+        Self(shared)
+    }
+
+    /// Waits for a step and returns the record of all steps since the last call. A call that is given up loses nothing.
+    pub async fn next(&mut self) -> Batch {
+        let counter = &self.0.counter;
+        loop {
+            if let Some(batch) = counter.take() {
+                return batch;
+            }
+            counter.is_asked.store(true, Ordering::Release);
+            counter.arrived.notified().await;
+        }
+    }
+}

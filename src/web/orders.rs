@@ -1,0 +1,137 @@
+//! The body of `POST /api/command`: one verb of a scenario that acts at once, or one word that drives the machine.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde_json::Value as Json;
+
+use crate::live::{Handle, Order, Speed};
+use crate::machine::{Command, Machine};
+use crate::scenario::commands;
+use crate::source::{Node, Place, Problem, Table, Value};
+
+/// Why a command may not be executed, if it may not.
+pub(super) type Protects = Arc<dyn Fn(&Machine, &Command) -> Option<String> + Send + Sync>;
+
+/// The most bytes that one request may write; an order takes effect in one step.
+const MOST: u32 = 2048;
+/// The most single steps of one request.
+const STEPS: u64 = 1_000_000;
+
+/// The answer: when the request acts.
+#[derive(Debug, Serialize)]
+pub(super) struct Taken {
+    cycle: u64,
+    step: u64,
+}
+
+/// Why a request is not executed.
+#[derive(Debug)]
+pub(super) enum Refusal {
+    /// It is wrong.
+    Wrong(Problem),
+    /// It is not allowed.
+    Forbidden(String),
+}
+
+impl From<Problem> for Refusal {
+    fn from(problem: Problem) -> Self {
+        Self::Wrong(problem)
+    }
+}
+
+/// Executes a request.
+pub(super) async fn execute(live: &Handle, body: &[u8], protects: &Protects) -> Result<Taken, Refusal> {
+    let json: Json = serde_json::from_slice(body).map_err(|error| {
+        Problem::new(format!("expected JSON: {error}"), "write {\"set\": {\"X.traversing_key_plus\": 1}}")
+    })?;
+    if let Some(driven) = drive(live, &json).await {
+        driven?;
+        return Ok(live.look(|seen| Taken { cycle: seen.machine().cycle(), step: seen.step() }));
+    }
+    let node = node(&json, &Place::file("the request"))?;
+    let Value::Table(table) = node.value else {
+        let what = "expected an object with one verb, found something else";
+        return Err(Problem::new(what, "write {\"set\": {\"X.traversing_key_plus\": 1}}").into());
+    };
+    order(live, table, protects)
+}
+
+/// Queues the commands of a verb.
+fn order(live: &Handle, table: Table, protects: &Protects) -> Result<Taken, Refusal> {
+    let commands = live.look(|seen| {
+        let machine = seen.machine();
+        let commands = commands(table, machine)?;
+        match commands.iter().find_map(|command| protects(machine, command)) {
+            Some(reason) => Err(Refusal::Forbidden(reason)),
+            None => Ok(commands),
+        }
+    })?;
+    let bytes: u32 = commands.iter().map(|command| command.location().map_or(8, |location| location.bytes())).sum();
+    if bytes > MOST {
+        let what = format!("expected at most {MOST} bytes for one step, found {bytes}");
+        return Err(Problem::new(what, "send several requests").into());
+    }
+    if live.is_crowded() {
+        let what = "expected a machine with time for requests, found one with very many";
+        return Err(Problem::new(what, "send them more slowly").into());
+    }
+    let step = live.order(Order { commands, ..Order::default() });
+    Ok(live.look(|seen| {
+        let ahead = step.saturating_sub(seen.step());
+        Taken { cycle: seen.machine().cycle() + ahead, step }
+    }))
+}
+
+/// Executes a word that drives the machine; `None` if the request has none.
+async fn drive(live: &Handle, json: &Json) -> Option<Result<(), Problem>> {
+    let (word, value) = json.as_object().filter(|object| object.len() == 1)?.iter().next()?;
+    let wrong = |expected: &str, cure: &str| {
+        let what = format!("expected {expected} for `{word}`, found {value}");
+        Some(Err(Problem::new(what, cure)))
+    };
+    match word.as_str() {
+        "pause" => match value.as_bool() {
+            Some(is_paused) => live.pause(is_paused),
+            None => return wrong("true or false", "write {\"pause\": true}"),
+        },
+        "step" => match value.as_u64() {
+            Some(steps @ 1..=STEPS) => live.step(steps),
+            Some(_) | None => return wrong("a number of cycles up to a million", "write {\"step\": 1}"),
+        },
+        "speed" => match value.as_f64().and_then(|speed| speed.to_string().parse::<Speed>().ok()) {
+            Some(speed) => live.set_speed(speed),
+            None => return wrong("a number from 0.001 to 1000", "write {\"speed\": 0.1}"),
+        },
+        "go_back" => match value.as_u64() {
+            Some(cycle) => return Some(live.go_back(cycle).await),
+            None => return wrong("the number of a cycle", "write {\"go_back\": 1500}"),
+        },
+        _ => return None,
+    }
+    Some(Ok(()))
+}
+
+/// The same value as in a file.
+fn node(json: &Json, place: &Place) -> Result<Node, Problem> {
+    let value = match json {
+        Json::Null => return Err(Problem::new("expected a value, found null", "write a number, a text or true")),
+        Json::Bool(value) => Value::Boolean(*value),
+        Json::String(text) => Value::Text(text.clone()),
+        Json::Number(number) => match (number.as_i64(), number.as_f64()) {
+            (Some(number), _) => Value::Integer(number),
+            (None, Some(number)) => Value::Float(number),
+            (None, None) => return Err(Problem::new("expected a smaller number", "write a number of 64 bits")),
+        },
+        Json::Array(list) => Value::Array(list.iter().map(|one| node(one, place)).collect::<Result<_, _>>()?),
+        Json::Object(object) => {
+            let mut table = Table::empty(place.clone());
+            for (key, value) in object {
+                // A path of one key in an empty table is always free.
+                let _ = table.put(&[key], place, node(value, place)?);
+            }
+            Value::Table(table)
+        }
+    };
+    Ok(Node { place: place.clone(), value })
+}
