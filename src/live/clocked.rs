@@ -77,7 +77,9 @@ impl Clocked {
     pub(super) fn seen(&self) -> Box<Seen> {
         let (machine, diagnosis) = (self.machine.snapshot(), self.diagnosis.entries());
         let clock = clock(self.set, self.machine.time() - self.set_at);
-        Box::new(Seen { step: self.steps, machine, clock, diagnosis })
+        let scenario = self.operator.as_ref().map(|operator| (operator.state().clone(), operator.index()));
+        let reach = self.history.as_ref().map(History::reach);
+        Box::new(Seen { step: self.steps, machine, clock, diagnosis, scenario, reach })
     }
 
     /// Queues the orders of clients. Returns a log line for each command that the machine rejects.
@@ -172,6 +174,11 @@ impl Clocked {
         let Some(history) = &mut self.history else {
             return Err(Problem::new("the machine cannot go back in time: it keeps no history", "start it with --web"));
         };
+        let now = self.machine.cycle();
+        if cycle > now {
+            let what = format!("expected a moment of the past, found cycle {cycle}; the machine is in cycle {now}");
+            return Err(Problem::new(what, "let it run to see what will be"));
+        }
         self.machine = history.back_to(cycle)?;
         self.operator = None;
         self.collected = self.collected.take().map(|_| Collected::new(&self.machine));

@@ -3,12 +3,11 @@
 //! asks for long, the record is dropped, and the next one begins anew.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use tokio::sync::Notify;
 
 use super::seen::Seen;
-use super::shared::Shared;
 use crate::machine::Machine;
 use crate::trace::Trace;
 use crate::units::Time;
@@ -35,13 +34,19 @@ pub(super) struct Collected {
     trace: Trace,
     begin: Time,
     is_new: bool,
+    /// Something was not handed over yet.
+    has_news: bool,
 }
 
 impl Collected {
     pub(super) fn new(machine: &Machine) -> Self {
         let begin = machine.time();
         let trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), begin);
-        Self { trace, begin, is_new: true }
+        Self { trace, begin, is_new: true, has_news: true }
+    }
+
+    pub(super) fn has_news(&self) -> bool {
+        self.has_news
     }
 
     /// A note that belongs to the next step.
@@ -54,6 +59,7 @@ impl Collected {
         self.trace.extend(machine.recorder());
         self.trace.note_fault(machine.recorder(), machine.program_fault());
         self.trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
+        self.has_news = true;
         if self.trace.bytes() > MOST {
             *self = Self::new(machine);
         }
@@ -61,6 +67,7 @@ impl Collected {
 
     /// Hands over what is collected, and begins to collect what follows.
     pub(super) fn hand_over(&mut self, machine: &Machine, seen: Box<Seen>) -> Batch {
+        self.has_news = false;
         let begin = machine.time();
         let next = self.trace.continued(machine.memory(), machine.cycle_time(), machine.cycle(), begin);
         let trace = std::mem::replace(&mut self.trace, next);
@@ -88,29 +95,17 @@ impl Counter {
         self.arrived.notify_one();
     }
 
-    fn take(&self) -> Option<Batch> {
-        self.batch.lock().unwrap_or_else(PoisonError::into_inner).take()
-    }
-}
-
-/// Follows a live machine. There is one for each machine.
-#[derive(Debug)]
-pub struct Follower(Arc<Shared>);
-
-impl Follower {
-    pub(super) fn new(shared: Arc<Shared>) -> Self {
-        Self(shared)
-    }
-
-    /// Waits for a step and returns the record of all steps since the last call. A call that is given up loses nothing.
-    pub async fn next(&mut self) -> Batch {
-        let counter = &self.0.counter;
-        loop {
-            if let Some(batch) = counter.take() {
-                return batch;
-            }
-            counter.is_asked.store(true, Ordering::Release);
-            counter.arrived.notified().await;
+    /// What was handed over; asks for more if there is nothing.
+    pub(super) fn take(&self) -> Option<Batch> {
+        let batch = self.batch.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if batch.is_none() {
+            self.is_asked.store(true, Ordering::Release);
         }
+        batch
+    }
+
+    /// Waits until something is handed over.
+    pub(super) async fn arrived(&self) {
+        self.arrived.notified().await;
     }
 }

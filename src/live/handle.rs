@@ -3,13 +3,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::following::{Collected, Follower};
-use super::history::Reach;
+use super::follower::Follower;
+use super::following::Collected;
 use super::inbox::Order;
 use super::seen::Seen;
 use super::shared::{Pace, Return, Shared};
 use super::speed::Speed;
-use crate::scenario::{Stage, State};
+use crate::scenario::Stage;
 use crate::source::Problem;
 
 /// A server's access to a live machine. A clone refers to the same machine. Only `async` functions wait for a step that takes long.
@@ -102,18 +102,11 @@ impl Handle {
     #[must_use]
     pub fn follow(&self) -> Follower {
         let mut lent = self.0.lend();
-        lent.collected = Some(Collected::new(&lent.machine));
+        if lent.collected.is_none() {
+            lent.collected = Some(Collected::new(&lent.machine));
+        }
         drop(lent);
         Follower::new(Arc::clone(&self.0))
-    }
-
-    /// The moments to which the machine can go back.
-    ///
-    /// # Errors
-    /// The machine keeps no history, or cannot be copied.
-    pub fn reach(&self) -> Result<Reach, Problem> {
-        let no_history = || Problem::new("the machine keeps no history", "start it with a history");
-        self.0.lend().history.as_ref().ok_or_else(no_history)?.reach()
     }
 
     /// Goes back to the end of a cycle of the last minutes, and pauses there. What happened later is forgotten; a scenario that was running
@@ -128,17 +121,11 @@ impl Handle {
         answered.await.unwrap_or_else(|_| Err(nothing()))
     }
 
-    /// Everything since power on as a scenario that repeats it; `None` if the machine keeps no history.
+    /// Everything since power on as a scenario that repeats it; `None` if the machine keeps no history, or its step takes long.
     #[must_use]
     pub fn scenario(&self) -> Option<String> {
-        let lent = self.0.lend();
+        let lent = self.0.lend_soon()?;
         lent.history.as_ref()?.scenario(lent.machine.cycle())
-    }
-
-    /// The state of the scenario that runs on the machine, and the index of its step; `None` if there is none.
-    #[must_use]
-    pub fn scenario_state(&self) -> Option<(State, usize)> {
-        self.0.lend().operator.as_ref().map(|operator| (operator.state().clone(), operator.index()))
     }
 
     /// The steps of the scenario that runs on the machine.

@@ -2,6 +2,7 @@
 //! computed again from the copy before it, with the same commands at the same steps, and is therefore the same to the last byte.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::machine::{Command, Machine};
@@ -33,11 +34,11 @@ pub(super) struct History {
     /// Everything since power on, as a scenario.
     transcript: Option<Transcript>,
     /// Why the machine cannot be copied.
-    refusal: Option<Problem>,
+    refusal: Option<Arc<str>>,
 }
 
 /// The moments to which a machine can go back.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reach {
     /// The first cycle.
     pub first: u64,
@@ -77,7 +78,7 @@ impl History {
         // The commands that wait for the next step are a part of the copy; they are recorded with their step as well, so they go.
         match machine.fork() {
             Ok(machine) => self.points.push_back(Point { machine, transcript: self.transcript.clone() }),
-            Err(problem) => self.refusal = Some(problem),
+            Err(problem) => self.refusal = Some(problem.what.into()),
         }
         self.copied = Some(Instant::now());
         if self.points.len() > POINTS {
@@ -88,19 +89,18 @@ impl History {
     }
 
     /// The moments to which the machine can go back; the reason if there is none.
-    pub(super) fn reach(&self) -> Result<Reach, Problem> {
+    pub(super) fn reach(&self) -> Result<Reach, Arc<str>> {
         if let Some(refusal) = &self.refusal {
-            return Err(refusal.clone());
+            return Err(Arc::clone(refusal));
         }
-        let first = self.points.front().ok_or_else(|| {
-            Problem::new("expected a machine that has run, found one that has taken no step", "let it run first")
-        })?;
+        let first = self.points.front().ok_or("the machine has taken no step")?;
         Ok(Reach { first: first.machine.cycle(), time: first.machine.time() })
     }
 
     /// The machine as it was after a cycle. What happened later is forgotten.
     pub(super) fn back_to(&mut self, cycle: u64) -> Result<Machine, Problem> {
-        let Reach { first, time } = self.reach()?;
+        let cure = "a machine that keeps a history goes back, if its PLC program is not in another process";
+        let Reach { first, time } = self.reach().map_err(|refusal| Problem::new(&*refusal, cure))?;
         let later = self.points.iter().position(|point| point.machine.cycle() > cycle).unwrap_or(self.points.len());
         let Some(index) = later.checked_sub(1) else {
             let what = format!("expected a moment of the last minutes, found cycle {cycle}");

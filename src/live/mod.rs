@@ -47,6 +47,7 @@
 mod clocked;
 mod diagnosis;
 mod driving;
+mod follower;
 mod following;
 mod handle;
 mod history;
@@ -64,7 +65,8 @@ mod stepping;
 mod urgency;
 
 pub use diagnosis::{Entry, Event};
-pub use following::{Batch, Follower};
+pub use follower::Follower;
+pub use following::Batch;
 pub use handle::Handle;
 pub use history::Reach;
 pub use inbox::Order;

@@ -9,7 +9,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use super::diagnosis::Entry;
+use super::history::Reach;
 use crate::machine::{Machine, Snapshot};
+use crate::scenario::State;
 
 /// The number of steps that are copied after a client has read.
 const LINGER: u32 = 1000;
@@ -21,6 +23,8 @@ pub struct Seen {
     pub(super) machine: Snapshot,
     pub(super) clock: SystemTime,
     pub(super) diagnosis: Arc<[Entry]>,
+    pub(super) scenario: Option<(State, usize)>,
+    pub(super) reach: Option<Result<Reach, Arc<str>>>,
 }
 
 impl Seen {
@@ -41,6 +45,24 @@ impl Seen {
     #[must_use]
     pub fn clock(&self) -> SystemTime {
         self.clock
+    }
+
+    /// The scenario that runs on the machine: its state, and the index of its step. `None` if there is none.
+    #[must_use]
+    pub fn scenario(&self) -> Option<(&State, usize)> {
+        self.scenario.as_ref().map(|(state, index)| (state, *index))
+    }
+
+    /// The moments to which the machine can go back.
+    ///
+    /// # Errors
+    /// The reason why it cannot: it keeps no history, or cannot be copied.
+    pub fn reach(&self) -> Result<Reach, &str> {
+        match &self.reach {
+            Some(Ok(reach)) => Ok(*reach),
+            Some(Err(refusal)) => Err(refusal),
+            None => Err("the machine keeps no history"),
+        }
     }
 
     /// The diagnostic buffer of the PLC's CPU, newest entry first. The allocation changes only when an entry is added.
@@ -105,7 +127,8 @@ mod tests {
 
     fn seen(step: u64) -> Box<Seen> {
         let machine = Machine::open("g1_example").expect("it is a built-in machine").snapshot();
-        Box::new(Seen { step, machine, clock: SystemTime::UNIX_EPOCH, diagnosis: Arc::new([]) })
+        let (clock, diagnosis) = (SystemTime::UNIX_EPOCH, Arc::new([]));
+        Box::new(Seen { step, machine, clock, diagnosis, scenario: None, reach: None })
     }
 
     #[test]

@@ -192,16 +192,29 @@ impl Shared {
         // Above real time few of the steps are read, and the reader copies them.
         let is_shown = self.is_lock_step || self.speed() <= Speed::default() && self.view.is_looked_at();
         let (step, shown) = (clocked.steps(), is_shown.then(|| clocked.seen()));
-        if self.counter.is_asked() {
-            let seen = clocked.seen();
-            let Clocked { collected, machine, .. } = &mut *clocked;
-            if let Some(collected) = collected {
-                self.counter.put(collected.hand_over(machine, seen));
-            }
-        }
+        self.hand_over(&mut clocked);
         drop(clocked);
         self.view.over(step, shown);
         self.steps.send_replace(step);
+    }
+
+    /// Hands over what happened, if a server asks for it.
+    fn hand_over(&self, clocked: &mut Clocked) {
+        if !self.counter.is_asked() || clocked.collected.as_ref().is_none_or(|collected| !collected.has_news()) {
+            return;
+        }
+        let seen = clocked.seen();
+        let Clocked { collected, machine, .. } = clocked;
+        if let Some(collected) = collected {
+            self.counter.put(collected.hand_over(machine, seen));
+        }
+    }
+
+    /// The same for a machine that takes no step now: it may have taken one while nobody asked.
+    pub(super) fn hand_over_at_rest(&self) {
+        if self.counter.is_asked() {
+            self.hand_over(&mut self.lend());
+        }
     }
 
     /// Waits until a step has ended; returns false if it never will.

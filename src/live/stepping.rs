@@ -11,6 +11,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::clocked::{Clocked, Kept};
+use super::following::Collected;
 use super::handle::Handle;
 use super::history::History;
 use super::record::Recording;
@@ -92,7 +93,11 @@ impl Live {
         let LiveOptions { recording, trace, trace_bytes, operator, is_held, is_lock_step, .. } = options;
         let trace = trace.map(|watch| Kept { watch, bytes: trace_bytes.unwrap_or(TRACE_BYTES) });
         let mut clocked = Clocked::new(machine, recording, trace, operator);
-        clocked.history = options.keeps_history.then(|| History::new(options.transcript));
+        if options.keeps_history {
+            clocked.history = Some(History::new(options.transcript));
+            // A server that follows begins a moment later, and is to have the first steps as well.
+            clocked.collected = Some(Collected::new(&clocked.machine));
+        }
         let shared = Arc::new(Shared::new(clocked, speed, is_held, is_lock_step));
         let (end, ended) = mpsc::channel();
         let stepped = Arc::clone(&shared);
@@ -222,6 +227,7 @@ fn run(shared: &Shared, ended: &mpsc::Receiver<()>) {
             go_back(shared, asked);
         }
         if !driving.may_step() {
+            shared.hand_over_at_rest();
             if ended.recv_timeout(HELD) != Err(RecvTimeoutError::Timeout) {
                 return;
             }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::server::WebOptions;
+use super::options::WebOptions;
 use crate::image::{Block, Location, Names, Part, Writer};
 use crate::live::Handle;
 use crate::machine::Machine;

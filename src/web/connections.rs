@@ -72,11 +72,11 @@ impl Listener for Doors {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Waiting {
     /// The next request.
-    ForRequest,
+    Request,
     /// The rest of a request, whose first bytes have come.
-    ForRest,
-    /// The client, to read what is sent to it.
-    ForReader,
+    Rest,
+    /// That the client reads what is sent to it.
+    Reader,
 }
 
 /// A connection that ends when its client is too slow.
@@ -89,16 +89,16 @@ pub(super) struct Connection {
 
 impl Connection {
     fn new(stream: TcpStream, place: OwnedSemaphorePermit) -> Self {
-        Self { stream, waiting: Waiting::ForRest, end: Box::pin(sleep(SLOWEST)), _place: place }
+        Self { stream, waiting: Waiting::Rest, end: Box::pin(sleep(SLOWEST)), _place: place }
     }
 
     /// From now on this is waited for. The time for the rest of a request does not begin anew with each byte.
     fn wait(&mut self, waiting: Waiting) {
-        if waiting == self.waiting && waiting != Waiting::ForRequest {
+        if waiting == self.waiting && waiting != Waiting::Request {
             return;
         }
         self.waiting = waiting;
-        let time = if waiting == Waiting::ForRequest { SILENT } else { SLOWEST };
+        let time = if waiting == Waiting::Request { SILENT } else { SLOWEST };
         self.end.as_mut().reset(Instant::now() + time);
     }
 
@@ -118,7 +118,7 @@ impl AsyncRead for Connection {
         let before = into.filled().len();
         let read = Pin::new(&mut this.stream).poll_read(context, into);
         if read.is_ready() && into.filled().len() > before {
-            this.wait(Waiting::ForRest);
+            this.wait(Waiting::Rest);
         }
         if read.is_pending() && this.is_over(context) {
             return Poll::Ready(Err(too_slow()));
@@ -132,9 +132,9 @@ impl AsyncWrite for Connection {
         let this = self.get_mut();
         let written = Pin::new(&mut this.stream).poll_write(context, bytes);
         match written {
-            Poll::Ready(_) => this.wait(Waiting::ForRequest),
+            Poll::Ready(_) => this.wait(Waiting::Request),
             Poll::Pending => {
-                this.wait(Waiting::ForReader);
+                this.wait(Waiting::Reader);
                 if this.is_over(context) {
                     return Poll::Ready(Err(too_slow()));
                 }

@@ -14,12 +14,13 @@ use tokio::sync::mpsc;
 use tokio::time::{Instant, sleep_until, timeout};
 
 use super::catalogue::Catalogue;
+use super::options::WebOptions;
 use super::picture::{Edge, Now, Past, Written, edges, values};
-use super::server::WebOptions;
 use super::why_not;
 use crate::live::{Batch, Follower, Handle};
 use crate::source::Problem;
 use crate::trace::Watch;
+use crate::units::Time;
 
 /// The time between two events.
 const PERIOD: Duration = Duration::from_millis(33);
@@ -45,6 +46,8 @@ struct Shared {
     follower: Option<Follower>,
     past: Past,
     recent: VecDeque<Edge>,
+    /// The time of the machine after the last event.
+    time: Time,
     clients: Vec<Client>,
 }
 
@@ -76,7 +79,8 @@ impl Hub {
     pub(super) fn new(live: Handle, options: &WebOptions) -> Self {
         let catalogue = Catalogue::new(&live, options);
         let follower = Some(live.follow());
-        let shared = Shared { follower, past: Past::default(), recent: VecDeque::new(), clients: Vec::new() };
+        let (past, recent, clients) = (Past::default(), VecDeque::new(), Vec::new());
+        let shared = Shared { follower, past, recent, time: Time::ZERO, clients };
         Self { live, catalogue, shared: Mutex::new(shared) }
     }
 
@@ -98,7 +102,7 @@ impl Hub {
         loop {
             let next = Instant::now() + PERIOD;
             match timeout(HEARTBEAT, follower.next()).await {
-                Ok(batch) => self.take(batch),
+                Ok(batch) => self.take(&batch),
                 Err(_) => self.tell(&[], 0),
             }
             sleep_until(next).await;
@@ -106,14 +110,19 @@ impl Hub {
     }
 
     /// Takes what happened, and tells it to the clients.
-    fn take(&self, batch: Batch) {
+    fn take(&self, batch: &Batch) {
         let machine = batch.seen.machine();
         let lines = batch.trace.lines(machine, &Watch::default());
         let mut shared = self.lock();
-        if batch.is_new && machine.cycle() > 0 {
-            shared.past = Past::default();
-            shared.recent.clear();
+        let time = batch.begin.seconds();
+        if batch.is_new && machine.time() < shared.time {
+            // The machine went back. Who wrote a signal before that is known only if nobody wrote it later.
+            shared.past.forget_after(time);
+            shared.recent.retain(|edge| edge.t <= time);
+        } else if batch.is_new {
+            (shared.past, shared.recent) = (Past::default(), VecDeque::new());
         }
+        shared.time = machine.time();
         let mut all = edges(lines, batch.begin, &self.catalogue, &mut shared.past);
         let lost = all.len().saturating_sub(EDGES);
         all.truncate(EDGES);

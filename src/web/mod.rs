@@ -1,6 +1,6 @@
 //! The live page: a machine in real time in a browser, `opennck serve --web 127.0.0.1:8080`.
 //!
-//! It is a server beside [`s7`](crate::live): it reads the copy of the last step, orders through the inbox, and follows the record of all
+//! It is a server beside S7 communication: it reads the copy of the last step, orders through the inbox, and follows the record of all
 //! steps. Its files are inside the program, and nothing on the page comes from another server.
 //!
 //! | path | answer |
@@ -15,20 +15,20 @@
 //!
 //! A slow client gets a snapshot instead of the events that it missed. The machine waits for no client.
 //!
-//! `server.rs` has the thread and the listeners, `connections.rs` the limits of connections, `guard.rs` what a browser must prove,
-//! `routes.rs` the paths, `orders.rs` the commands, `hub.rs` the clients of `/events`, `picture.rs` the machine as JSON, `catalogue.rs` what
-//! does not change, `why_not.rs` the conditions, `page/` the files of the page.
-
-#![expect(clippy::disallowed_methods, reason = "the server runs in real time")]
+//! `options.rs` and `server.rs` have the options, the thread and the listeners, `connections.rs` the limits of connections, `guard.rs` what
+//! a browser must prove, `routes.rs` the paths, `orders.rs` the commands, `hub.rs` the clients of `/events`, `picture.rs` the machine as
+//! JSON, `catalogue.rs` what does not change, `why_not.rs` the conditions, `page/` the files of the page.
 
 mod catalogue;
 mod connections;
 mod guard;
 mod hub;
+mod options;
 mod orders;
 mod picture;
 mod routes;
 mod server;
 mod why_not;
 
-pub use server::{WebOptions, WebServer};
+pub use options::WebOptions;
+pub use server::WebServer;

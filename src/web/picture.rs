@@ -69,7 +69,7 @@ struct Scenario {
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Edge {
     /// The time in seconds.
-    t: f64,
+    pub(super) t: f64,
     /// The index of the signal in the catalogue.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) i: Option<usize>,
@@ -97,6 +97,14 @@ pub(super) struct Written(f64, &'static str, Option<String>);
 pub(super) struct Past {
     pub(super) writers: BTreeMap<usize, Written>,
     alarms: BTreeMap<(String, String), (f64, Option<String>)>,
+}
+
+impl Past {
+    /// Forgets what was after a time in seconds.
+    pub(super) fn forget_after(&mut self, time: f64) {
+        self.writers.retain(|_, written| written.0 <= time);
+        self.alarms.retain(|_, (raised, _)| *raised <= time);
+    }
 }
 
 fn writer(by: By) -> &'static str {
@@ -201,8 +209,8 @@ impl Now {
             alarms: variables.alarms.iter().map(|alarm| Alarm::of(alarm, machine, past)).collect(),
             positions: positions.collect(),
             memory: [Part::Inputs, Part::Outputs, Part::Flags].map(|part| hex(machine.memory().part(part))),
-            scenario: live.scenario_state().map(|(state, index)| Scenario::of(&state, index)),
-            reach: live.reach().map(|reach| (reach.first, reach.time.seconds())).map_err(|problem| problem.what),
+            scenario: seen.scenario().map(|(state, index)| Scenario::of(state, index)),
+            reach: seen.reach().map(|reach| (reach.first, reach.time.seconds())).map_err(str::to_owned),
         }
     }
 }

@@ -15,3 +15,5 @@ mod s7_client;
 mod s7_command;
 mod s7_safety;
 mod s7_server;
+#[cfg(feature = "web")]
+mod web;

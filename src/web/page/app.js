@@ -12,7 +12,7 @@ import * as signals from "./signals.js";
 import * as status from "./status.js";
 import * as why from "./why.js";
 
-const VIEWS = ["Axes", "Flowchart", "Signals", "Diagram", "Scenario", "Keys"];
+const VIEWS = ["Axes", "Keys", "Flowchart", "Signals", "Diagram", "Scenario"];
 
 function views() {
   const list = document.querySelector("#views");
@@ -25,8 +25,8 @@ function views() {
     document.body.dataset.view = view;
     diagram.draw();
   };
-  const wanted = () => VIEWS.find((view) => `#${view.toLowerCase()}` === location.hash) ?? VIEWS[0];
-  for (const view of VIEWS) list.append(el("li", {}, el("a", { href: `#${view.toLowerCase()}` }, view)));
+  const wanted = () => VIEWS.find((view) => `#/${view.toLowerCase()}` === location.hash) ?? VIEWS[0];
+  for (const view of VIEWS) list.append(el("li", {}, el("a", { href: `#/${view.toLowerCase()}` }, view)));
   addEventListener("hashchange", () => show(wanted()));
   show(wanted());
 }

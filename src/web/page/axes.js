@@ -58,7 +58,9 @@ export function begin() {
       ...rows)));
   on("step", ({ now }) => {
     now.axes.forEach((values, axis) => values.forEach((value, at) => {
-      say(cells[axis][at], (value === 0 ? 0 : value).toFixed(DIGITS[at]));
+      // Half a digit below zero is no negative number.
+      const shown = value.toFixed(DIGITS[at]);
+      say(cells[axis][at], Number(shown) === 0 ? (0).toFixed(DIGITS[at]) : shown);
     }));
     for (const [at, lamp, state] of lamps) {
       const is = machine.values[at] === 1;

@@ -2,12 +2,12 @@
 
 import { body, el, field, say, svg } from "./dom.js";
 import { machine, on } from "./machine.js";
-import { conditions, entry } from "./why.js";
+import { conditions, entry, summary } from "./why.js";
 
-const WIDTH = 300;
-const HEIGHT = 40;
-const APART = 78;
-const LANE = 26;
+const WIDTH = 270;
+const HEIGHT = 36;
+const APART = 66;
+const LANE = 15;
 
 let choice = 0;
 let drawn = "";
@@ -50,27 +50,34 @@ function picture(chart, phase) {
   const width = WIDTH + 30 + LANE * lanes(beside);
   const height = chart.phases.length * APART - (APART - HEIGHT) + 20;
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart", role: "img", "aria-label": `${chart.title}, flowchart` });
-  drawing.style.maxWidth = `${width * 1.15}px`;
-  const head = svg("marker", { id: "head", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient: "auto" });
+  drawing.setAttribute("width", width);
+  drawing.setAttribute("height", height);
+  const head = svg("marker", { id: "head", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 9, markerHeight: 9, markerUnits: "userSpaceOnUse", orient: "auto" });
   head.append(svg("path", { d: "M0 0L8 4L0 8z" }));
   const defs = svg("defs");
   defs.append(head);
   drawing.append(defs);
+  const above = [];
   const top = (id) => 10 + row.get(id) * APART;
   for (const { from, to, rules, texts, lane } of list) {
     const isNext = lane === undefined;
     const side = WIDTH + 14 + LANE * (lane ?? 0);
     const [start, end] = [top(from) + HEIGHT * 0.68, top(to) + HEIGHT * 0.32];
     const path = isNext ? `M${WIDTH / 2} ${top(from) + HEIGHT}V${top(to)}` : `M${WIDTH} ${start}H${side}V${end}H${WIDTH}`;
-    const group = svg("g", { class: from === phase ? "arrow now" : "arrow" });
+    const isNow = from === phase;
+    const group = svg("g", { class: isNow ? "arrow now" : "arrow" });
     group.append(svg("title", {}, texts.join("\n")), svg("path", { d: path, "marker-end": "url(#head)" }));
     const label = rules.length > 2 ? `${rules[0]} +${rules.length - 1}` : rules.join(", ");
     const middle = (start + end) / 2;
-    group.append(isNext
+    // The others have a tooltip: twenty texts beside each other are none.
+    if (isNext || isNow) group.append(isNext
       ? svg("text", { x: WIDTH / 2 + 8, y: top(from) + HEIGHT + (APART - HEIGHT) / 2 + 3 }, label)
       : svg("text", { x: side + 10, y: middle, transform: `rotate(90 ${side + 10} ${middle})`, "text-anchor": "middle", dy: 4 }, label));
-    drawing.append(group);
+    // What is possible now lies above what is not.
+    if (isNow) above.push(group);
+    else drawing.append(group);
   }
+  drawing.append(...above);
   for (const [id, text] of chart.phases) {
     const box = svg("g", { class: id === phase ? "phase now" : "phase" });
     const said = text.length > 46 ? `${text.slice(0, 44)}…` : text;
@@ -86,7 +93,7 @@ export function begin() {
   const part = el("select", { change: () => { choice = Number(part.value); drawn = ""; show(); } });
   const phase = el("p", { class: "phase-now", role: "status" });
   const ways = el("ul");
-  const waits = el("ul", { class: "tree" });
+  const waits = el("div");
   const frame = el("div", { class: "frame" });
   place.append(field("Part", part), phase,
     el("div", { class: "beside" }, frame,
@@ -132,9 +139,13 @@ export function begin() {
     const text = JSON.stringify(tree);
     if (text === told) return;
     told = text;
-    if (!tree || tree.error) waits.replaceChildren(el("li", {}, "The control does not say."));
-    else if (tree.holds) waits.replaceChildren(el("li", {}, `Nothing: ${tree.what} is 1.`));
-    else waits.replaceChildren(entry(tree));
+    if (!tree || tree.error) waits.replaceChildren(el("p", {}, "The control does not say."));
+    else if (tree.holds) waits.replaceChildren(el("p", {}, `Nothing: ${tree.what} is 1.`));
+    else {
+      const isOpen = waits.querySelector("details")?.open ?? false;
+      waits.replaceChildren(...summary(tree),
+        el("details", { ".open": isOpen }, el("summary", {}, "All conditions"), el("ul", { class: "tree" }, entry(tree))));
+    }
   };
   setInterval(wait, 700);
   on("step", show);

@@ -6,7 +6,9 @@ import { index, machine, on } from "./machine.js";
 const KEY = "opennck diagram";
 const ROW = 26;
 const CURVE = 76;
-const LEFT = 210;
+/** The width for names beside the rows; on a phone names stand above them. */
+const NAMES = 210;
+const ABOVE = 14;
 const TOP = 26;
 const WINDOWS = [0.5, 1, 2, 5, 10, 30, 60];
 const VALUES = ["position", "setpoint", "velocity", "following_error", "synchronism_difference", "slide"];
@@ -21,6 +23,8 @@ let span = 10;
 let end = null;
 let scroll;
 let follow;
+/** The left end of the waves. */
+let left = NAMES;
 
 export function chosen(name) {
   return picked.includes(name);
@@ -47,12 +51,10 @@ function axisValue(name) {
 
 function first() {
   const [axis] = machine.catalogue.axes;
-  const names = ["mode_group_1.active_machine_function_ref"];
-  for (const one of machine.catalogue.axes.slice(0, 3)) {
-    names.push(`${one.name}.traversing_key_plus`, `${one.name}.referenced_synchronized_1`, `${one.name}.homed`);
-  }
-  names.push(`${axis?.name}.position_controller_active`, `${axis?.name}.gantry_synchronization_ready_to_start`,
-    `${axis?.name}.gantry_grouping_is_synchronized`, `${axis?.name}.position`, `${axis?.name}.velocity`);
+  const names = ["mode_group_1.active_machine_function_ref", ...[
+    "traversing_key_plus", "traverse_command_plus", "position_controller_active", "referenced_synchronized_1", "homed", "error",
+    "gantry_synchronization_ready_to_start", "gantry_grouping_is_synchronized", "gantry_coupled", "position", "velocity",
+  ].map((name) => `${axis?.name}.${name}`)];
   return names.filter((name) => index(name) !== undefined || axisValue(name));
 }
 
@@ -85,7 +87,7 @@ function course(at, from, to) {
 function bit(group, at, y, x, from, to) {
   const { before, edges } = course(at, from, to);
   const level = (value) => y + (value ? 6 : ROW - 7);
-  let path = `M${LEFT} ${level(before)}`;
+  let path = `M${left} ${level(before)}`;
   const by = edges.findLast(({ by }) => by !== "power on")?.by ?? machine.writers.get(at)?.[1];
   for (const { t, v } of edges) path += `H${x(t).toFixed(1)}V${level(v)}`;
   group.append(svg("path", { class: `wave ${colour(by)}`, d: `${path}H${x(to).toFixed(1)}` }));
@@ -98,13 +100,13 @@ function bit(group, at, y, x, from, to) {
 
 function number(group, at, y, x, from, to) {
   const { before, edges } = course(at, from, to);
-  let left = LEFT;
+  let start = left;
   let value = before;
   for (const edge of [...edges, { t: to, v: null }]) {
     const right = x(edge.t);
-    group.append(svg("rect", { class: "lane", x: left, y: y + 5, width: Math.max(right - left, 0.5), height: ROW - 10 }));
-    if (right - left > 24 && value !== null) group.append(svg("text", { class: "small", x: left + 4, y: y + ROW / 2 + 4 }, `${value}`));
-    [left, value] = [right, edge.v];
+    group.append(svg("rect", { class: "lane", x: start, y: y + 5, width: Math.max(right - start, 0.5), height: ROW - 10 }));
+    if (right - start > 24 && value !== null) group.append(svg("text", { class: "small", x: start + 4, y: y + ROW / 2 + 4 }, `${value}`));
+    [start, value] = [right, edge.v];
   }
 }
 
@@ -112,24 +114,27 @@ function curve(group, [axis, column], y, x, from, to) {
   const samples = machine.samples.filter(([time]) => time >= from - 0.2 && time <= to);
   if (samples.length < 1) return;
   const values = samples.map(([, axes]) => axes[axis][column]);
-  const [low, high] = [Math.min(...values), Math.max(...values)];
+  let [low, high] = [Math.min(...values), Math.max(...values)];
+  // What only trembles is a line.
+  const least = Math.max(Math.abs(high), Math.abs(low)) * 0.002;
+  if (high - low < least) [low, high] = [(low + high - least) / 2, (low + high + least) / 2];
   const height = (value) => y + CURVE - 12 - (high > low ? (value - low) / (high - low) : 0.5) * (CURVE - 24);
-  if (low < 0 && high > 0) group.append(svg("path", { class: "zero", d: `M${LEFT} ${height(0)}H${x(to)}` }));
-  const points = samples.map(([time], at) => `${Math.max(x(time), LEFT).toFixed(1)} ${height(values[at]).toFixed(1)}`);
+  if (low < 0 && high > 0) group.append(svg("path", { class: "zero", d: `M${left} ${height(0)}H${x(to)}` }));
+  const points = samples.map(([time], at) => `${Math.max(x(time), left).toFixed(1)} ${height(values[at]).toFixed(1)}`);
   group.append(svg("path", { class: "wave value", d: `M${points.join("L")}H${x(to).toFixed(1)}` }));
-  group.append(svg("text", { class: "small right", x: LEFT - 8, y: y + 18 }, high.toFixed(3)),
-    svg("text", { class: "small right", x: LEFT - 8, y: y + CURVE - 8 }, low.toFixed(3)));
+  const beside = left < NAMES ? { class: "small", x: left + 2 } : { class: "small right", x: left - 8 };
+  group.append(svg("text", { ...beside, y: y + 18 }, high.toFixed(3)), svg("text", { ...beside, y: y + CURVE - 4 }, low.toFixed(3)));
 }
 
 function alarms(group, y, x, from, to) {
   const open = new Map();
   const bar = (name, since, until) => {
-    const [left, right] = [Math.max(x(since), LEFT), Math.min(x(until), x(to))];
-    if (right <= LEFT || left > x(to)) return;
+    const [start, right] = [Math.max(x(since), left), Math.min(x(until), x(to))];
+    if (right <= left || start > x(to)) return;
     const shown = svg("g");
     shown.append(svg("title", {}, `${name}\n${seconds(since)}`),
-      svg("rect", { class: "alarm", x: left, y: y + 5, width: Math.max(right - left, 2), height: ROW - 10 }));
-    if (right - left > 40) shown.append(svg("text", { class: "alarm-text", x: left + 4, y: y + ROW / 2 + 4 }, name.split(" ")[0]));
+      svg("rect", { class: "alarm", x: start, y: y + 5, width: Math.max(right - start, 2), height: ROW - 10 }));
+    if (right - start > 40) shown.append(svg("text", { class: "alarm-text", x: start + 4, y: y + ROW / 2 + 4 }, name.split(" ")[0]));
     group.append(shown);
   };
   for (const { t, a, v, kind } of machine.edges) {
@@ -147,14 +152,23 @@ export function draw() {
   if (!frame || !machine.now || document.body.dataset.view !== "Diagram") return;
   const to = end ?? machine.now.time;
   const from = to - span;
-  const width = Math.max(frame.clientWidth, 340);
-  const x = (time) => LEFT + ((time - from) / span) * (width - LEFT - 10);
+  const width = Math.max(frame.clientWidth, 300);
+  const isNarrow = width < 560;
+  left = isNarrow ? 4 : NAMES;
+  const x = (time) => left + ((time - from) / span) * (width - left - 10);
   const drawing = svg("svg", { class: "diagram", width, role: "img", "aria-label": `Timing diagram of ${picked.length} signals, ${seconds(Math.max(from, 0))} to ${seconds(to)}` });
   const grid = 10 ** Math.floor(Math.log10(span / 4));
-  const each = [1, 2, 5, 10].map((factor) => factor * grid).find((step) => span / step <= (width - LEFT) / 70) ?? span;
+  const each = [1, 2, 5, 10].map((factor) => factor * grid).find((step) => span / step <= (width - left) / 70) ?? span;
   let y = TOP;
   const rows = svg("g");
-  const name = (text, height) => rows.append(svg("text", { x: 4, y: y + Math.min(height, 30) / 2 + 4 }, text.length > 30 ? `…${text.slice(-28)}` : text));
+  const name = (text, height) => {
+    if (isNarrow) {
+      rows.append(svg("text", { x: 4, y: y + 11 }, text));
+      y += ABOVE;
+      return;
+    }
+    rows.append(svg("text", { x: 4, y: y + Math.min(height, 30) / 2 + 4 }, text.length > 30 ? `…${text.slice(-28)}` : text));
+  };
   for (const one of picked) {
     const at = index(one);
     const value = axisValue(one);
@@ -192,8 +206,9 @@ function edges(to) {
     const edge = machine.edges[at];
     if (edge.t <= to && (wanted.has(edge.i) || edge.kind)) found.push(edge);
   }
-  const lines = found.map(({ t, i, a, v, by, why }) => {
-    const what = i === undefined ? a : `${machine.catalogue.signals[i].symbol} = ${v}`;
+  const lines = found.map(({ t, i, a, v, by, why, kind }) => {
+    const change = kind === "alarm" ? (v ? "alarm " : "cancelled: ") : "";
+    const what = i === undefined ? change + a : `${machine.catalogue.signals[i].symbol} = ${v}`;
     return `${seconds(t)}  ${what}${by ? `  ${by}` : ""}${why ? `  ${why}` : ""}`;
   });
   if (log.dataset.shown === lines.join("\n")) return;

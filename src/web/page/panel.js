@@ -163,8 +163,12 @@ function interfaceKeys() {
     group("Axes", ...machine.catalogue.axes.flatMap(({ name }) => [
       has(`${name} -`, `${name}.traversing_key_minus`, `${name}.traverse_command_minus`),
       has(`${name} +`, `${name}.traversing_key_plus`, `${name}.traverse_command_plus`)])),
-    group("Gantry", ...machine.catalogue.axes.filter(({ name }) => value(`${name}.gantry_leading_axis`) !== undefined).flatMap(({ name }) => [
-      has(`Start synchronization ${name}`, `${name}.start_gantry_synchronization`, `${name}.gantry_grouping_is_synchronized`)])),
+    group("Gantry", ...machine.catalogue.axes.map(({ name }) => {
+      const start = has(`Start synchronization ${name}`, `${name}.start_gantry_synchronization`, `${name}.gantry_grouping_is_synchronized`);
+      // Which axis leads is known when the machine has run up.
+      if (start) lamps.push(() => { start.hidden = value(`${name}.gantry_leading_axis`) !== 1; });
+      return start;
+    })),
     group("Enables", enables()),
     group("Emergency stop", has("EMERGENCY STOP", "nck.emergency_stop", "nck.emergency_stop_active", true),
       has("ACKNOWLEDGE", "nck.acknowledge_emergency_stop")),

@@ -18,7 +18,7 @@ export function begin() {
     el("h3", {}, "What happened"), log,
     el("h3", {}, "Save"),
     el("p", {}, el("a", { href: "/api/recording", download: "session.toml" }, "Save everything since power on as a scenario"),
-      ". Put the file into the folder in which the server was started; `opennck run` repeats it."));
+      ". Put the file into the folder in which the server was started; “opennck run session.toml” repeats it."));
   let current = null;
   on("step", ({ now }) => {
     const of = now.scenario;

@@ -8,19 +8,59 @@ let shown = "";
 let tree;
 let input;
 
+/** The ends of a tree that are listed. */
+const LEAST = 6;
+
+let showsAll = false;
+
+/** The parts of a condition that are shown: groups in groups of the same kind are one group. */
+function shownParts({ parts = [] }) {
+  return parts.flatMap((part) => {
+    if (part.holds && !showsAll) return [];
+    return part.what === "all of" && part.found === undefined ? shownParts(part) : [part];
+  });
+}
+
 /** A condition as an entry of a list. */
-export function entry(node, isOpen = true) {
+export function entry(node) {
+  const parts = shownParts(node).map(entry);
+  return el("li", {}, el("span", { class: node.holds ? "mark holds" : "mark open" }, node.holds ? "holds" : "open"), ` ${said(node)}`,
+    parts.length ? el("ul", { class: "tree" }, ...parts) : null);
+}
+
+/** A condition in words: what is tested, what is found and wanted, who wrote it. */
+function said(node) {
   const value = node.found === undefined ? "" : node.holds ? ` = ${node.found}` : ` = ${node.found}, wanted ${node.wanted}`;
   const written = node.written ? `, written by ${node.written[1]} at ${seconds(node.written[0])}` : "";
   const side = node.writer && !node.holds && !node.parts?.length ? `: ${node.writer} signal${written}` : "";
-  const line = [
-    el("span", { class: node.holds ? "mark holds" : "mark open" }, node.holds ? "holds" : "open"),
-    ` ${node.what}${node.address && node.address !== node.what ? ` (${node.address})` : ""}${value}${side}`,
-  ];
-  const parts = (node.parts ?? []).map((part) => entry(part));
-  return parts.length
-    ? el("li", {}, ...line, el("ul", { class: "tree" }, ...parts))
-    : el("li", {}, ...line);
+  return `${node.what}${node.address && node.address !== node.what ? ` (${node.address})` : ""}${value}${side}`;
+}
+
+/** What is open at the ends of a tree: the signals and facts that hold up everything else. */
+function ends(node, shownElsewhere, isChoice = false) {
+  const open = (node.parts ?? []).filter(({ holds }) => !holds);
+  if (node.holds) return [];
+  if (open.length) return open.flatMap((part) => ends(part, shownElsewhere, isChoice || node.what === "one of"));
+  return shownElsewhere.has(`${node.address} ${node.wanted}`) ? [] : [`${isChoice ? "one way: " : ""}${said(node)}`];
+}
+
+/** The signals whose conditions are in a tree: a server tells those of a signal only once. */
+function told(node, signals = new Set()) {
+  if (node.address && node.parts?.length) signals.add(`${node.address} ${node.wanted}`);
+  for (const part of node.parts ?? []) told(part, signals);
+  return signals;
+}
+
+/** The ends of a tree as a list, before the tree. */
+export function summary(node) {
+  // What ends a signal that is 1 is any of very many things.
+  if (node.wanted === "0") return [];
+  const open = [...new Set(ends(node, told(node)))];
+  if (!open.length) return [];
+  const more = open.length - LEAST;
+  return [el("p", {}, "Open at the end of the chain:"),
+    el("ul", { class: "ends" }, ...open.slice(0, LEAST).map((text) => el("li", {}, text)),
+      more > 0 ? el("li", {}, `${more} more, in the tree`) : null)];
 }
 
 /** The conditions of a signal from the server; null if it has none. */
@@ -35,27 +75,26 @@ export async function conditions(signal, value = null) {
 }
 
 async function refresh() {
-  if (!asked || document.hidden) return;
-  const told = await conditions(asked);
-  if (!told) return;
-  if (told.error) {
-    message(told.error, true);
+  if (!asked || document.hidden || document.body.dataset.view !== "Axes") return;
+  const found = await conditions(asked);
+  if (!found) return;
+  if (found.error) {
+    message(found.error, true);
     asked = null;
     return;
   }
-  const text = JSON.stringify([told, asked]);
+  const text = JSON.stringify([found, asked]);
   if (text === shown) return;
   shown = text;
-  tree.replaceChildren(el("ul", { class: "tree" }, entry(told)));
+  tree.replaceChildren(...summary(found), el("ul", { class: "tree" }, entry(found)));
 }
 
 /** Shows the conditions of a signal, and follows them. */
 export function ask(signal) {
   asked = signal;
   input.value = signal;
+  location.hash = "#/axes";
   refresh();
-  const section = document.querySelector("#why");
-  if (!section.classList.contains("shown")) location.hash = "#axes";
 }
 
 export function begin() {
@@ -67,6 +106,9 @@ export function begin() {
   place.append(form,
     el("datalist", { id: "all-signals" }, ...bits.map((signal) => el("option", { value: signal.symbol }))),
     tree = el("div", {}, el("p", { class: "hint" }, "Shows what a bit of the control waits for before it changes.")));
+  const all = el("input", { type: "checkbox", change: () => { showsAll = all.checked; shown = ""; refresh(); } });
+  form.append(el("label", { class: "check" }, all, " also what holds"));
   setInterval(refresh, 700);
+  addEventListener("hashchange", refresh);
   on("snapshot", () => { shown = ""; });
 }
