@@ -61,6 +61,10 @@ fn sizes(program: &Program, output: &mut Output) {
         sizes.counters,
         program.statements()
     ));
+    let basic: Vec<_> = program.basic_program().map(|(block, name)| format!("{block} {name}")).collect();
+    if !basic.is_empty() {
+        output.line(format!("blocks of the basic program that are built in: {}", basic.join(", ")));
+    }
     let foreign: Vec<_> = program.foreign_data_blocks().iter().map(|number| format!("DB{number}")).collect();
     if !foreign.is_empty() {
         output.line(format!("data blocks that the machine must have: {}", foreign.join(", ")));

@@ -116,6 +116,8 @@ pub enum ControlCommand {
     PlcMissing,
     /// The PLC program is running again.
     PlcRestarted,
+    /// The PLC program shows exactly these messages from now on, by their numbers in ascending order.
+    PlcMessages(Vec<u32>),
     /// A client, scenario or operator wrote these bits of the control's or the HMI's part of the interface.
     Written(Location),
     /// A fault of the mechanics, a drive or an encoder began or ended. No axis rests in the next cycle.

@@ -224,6 +224,7 @@ impl Control for Cnc {
             | ControlCommand::Cancel
             | ControlCommand::PlcMissing
             | ControlCommand::PlcRestarted
+            | ControlCommand::PlcMessages(_)
             | ControlCommand::Written(_)
             | ControlCommand::Fault { .. } => Ok(()),
             ControlCommand::RParameter { .. } => Err(foreign("R parameters", "P parameters belong to their program")),

@@ -34,6 +34,8 @@ impl Describe for Machine {
             if *parameter == Parameter::None {
                 // An alarm of programs that is raised without one has no block.
                 text = text.replace(&format!(" block %{}", index + 1), "");
+                // A message of the PLC program has no variable, unlike a user alarm with the same number.
+                text = text.replace(&format!(", variable %{}", index + 1), "");
             }
             text = text.replace(&format!("%{}", index + 1), &shown(self, *parameter));
         }

@@ -23,6 +23,7 @@ mod conditions;
 mod definition;
 mod delay;
 mod describe;
+mod nc_services;
 mod open;
 mod plc;
 mod queue;

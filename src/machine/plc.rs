@@ -21,6 +21,8 @@ pub(super) struct PlcState {
     pub(super) scans: VecDeque<u64>,
     /// The fault of its program.
     pub(super) fault: Option<String>,
+    /// The messages that it shows.
+    pub(super) messages: Vec<u32>,
     /// Its entries for the diagnostic buffer.
     pub(super) diagnosis: Option<PlcDiagnosis>,
 }

@@ -87,7 +87,7 @@ impl Machine {
     fn take(&mut self, command: &Command) {
         if let Some(command) = of_the_control(command) {
             let event = self.control.command(&command);
-            self.record_command(&command, event);
+            self.record_command(&command, event, By::Outside);
             return;
         }
         match *command {
@@ -160,32 +160,33 @@ impl Machine {
     }
 
     /// Records a command that the control has taken. A datum that is active at once has one row.
-    fn record_command(&mut self, command: &ControlCommand, event: EventId) {
+    pub(super) fn record_command(&mut self, command: &ControlCommand, event: EventId, by: By) {
         match command {
             ControlCommand::Store { target, .. } => {
-                if !self.record_activated(By::Outside)
+                if !self.record_activated(by)
                     && let Some(datum) = self.control.data().named(target)
                 {
-                    self.record_happening(Happening::DatumStored(datum), By::Outside, EventId::NONE);
+                    self.record_happening(Happening::DatumStored(datum), by, EventId::NONE);
                 }
             }
             ControlCommand::Activate => {
-                self.record_happening(Happening::DataSetActive, By::Outside, event);
+                self.record_happening(Happening::DataSetActive, by, event);
                 self.record_activated(By::Nck);
             }
-            ControlCommand::Cancel => self.record_happening(Happening::CancelKey, By::Outside, event),
+            ControlCommand::Cancel => self.record_happening(Happening::CancelKey, by, event),
             &ControlCommand::Handwheel { number, pulses, .. } => {
-                self.record_happening(Happening::HandwheelTurned { number, pulses }, By::Outside, event);
+                self.record_happening(Happening::HandwheelTurned { number, pulses }, by, event);
             }
             ControlCommand::SelectProgram { channel, path } => {
                 let (channel, program) = (*channel, program_name(path));
-                self.record_happening(Happening::ProgramSelected { channel, program }, By::Outside, event);
+                self.record_happening(Happening::ProgramSelected { channel, program }, by, event);
             }
             &ControlCommand::EnterBlocks { channel, .. } => {
-                self.record_happening(Happening::BlocksEntered { channel }, By::Outside, event);
+                self.record_happening(Happening::BlocksEntered { channel }, by, event);
             }
             ControlCommand::PlcMissing
             | ControlCommand::PlcRestarted
+            | ControlCommand::PlcMessages(_)
             | ControlCommand::RParameter { .. }
             | ControlCommand::Preset { .. }
             | ControlCommand::Search { .. }
@@ -255,6 +256,7 @@ impl Machine {
         let cycle = self.cycle_time();
         (self.state.to_nck, self.state.from_nck) = self.definition.delays(cycle, &self.state.memory);
         self.state.plc.scans.clear();
+        self.state.plc.messages.clear();
         self.state.variables = crate::variables::Variables::default();
         self.state.forces.clear();
         self.before.written.clear();

@@ -1,6 +1,7 @@
 //! One step, including the PLC.
 
 use super::Machine;
+use super::nc_services::NcOfMachine;
 use super::state::State;
 use super::written::Force;
 use crate::control::{ControlCommand, ControlSide, CycleTimes};
@@ -81,6 +82,13 @@ impl Machine {
     fn run_program(&mut self, run: impl FnOnce(&mut dyn PlcProgram, &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault>) {
         let Some(program) = &mut self.program else { return };
         let memory = &mut self.state.memory;
+        let mut nc = NcOfMachine {
+            control: &*self.control,
+            variables: &self.state.variables,
+            orders: Vec::new(),
+            messages: &mut self.state.plc.messages,
+            has_new_messages: false,
+        };
         let mut io = PlcIo::<AsBytes> {
             to_nck: &mut memory.to_nck,
             from_nck: self.state.from_nck.seen(&memory.from_nck),
@@ -95,8 +103,19 @@ impl Machine {
             time: self.state.time,
             cycle_time: self.state.time - self.state.plc.last_scan,
             names: &self.definition.names,
+            nc: &mut nc,
         };
-        if let Err(fault) = run(&mut **program, &mut io) {
+        let done = run(&mut **program, &mut io);
+        let NcOfMachine { orders, has_new_messages, .. } = nc;
+        if has_new_messages {
+            let messages = self.state.plc.messages.clone();
+            let _ = self.control.command(&ControlCommand::PlcMessages(messages));
+        }
+        for order in orders {
+            let event = self.control.command(&order);
+            self.record_command(&order, event, By::Plc);
+        }
+        if let Err(fault) = done {
             self.state.plc.stopped = true;
             self.state.plc.fault = Some(fault.reason);
             self.state.plc.diagnosis = fault.diagnosis;

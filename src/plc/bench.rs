@@ -1,7 +1,7 @@
 //! A test bench: runs a program on a memory, scan by scan.
 
 use crate::image::{AsBytes, Location, Memory, Names, Profile};
-use crate::plc::{PlcFault, PlcIo, PlcProgram};
+use crate::plc::{NcOrder, NcServices, NcVariable, PlcFault, PlcIo, PlcProgram};
 use crate::units::{AxisNumber, Time};
 
 /// A memory, the names of a machine, and the time.
@@ -9,6 +9,34 @@ pub(super) struct Bench {
     pub(super) memory: Memory,
     pub(super) names: Names,
     pub(super) time: Time,
+    /// The NC beside the interface.
+    pub(super) nc: BenchNc,
+}
+
+/// Variables with values, and what programs ordered and show.
+#[derive(Debug, Default)]
+pub(super) struct BenchNc {
+    pub(super) values: Vec<(NcVariable, f64)>,
+    pub(super) orders: Vec<NcOrder>,
+    pub(super) shown: Vec<u32>,
+    pub(super) refuses: bool,
+}
+
+impl NcServices for BenchNc {
+    fn read(&self, variable: NcVariable) -> Option<f64> {
+        self.values.iter().find(|(known, _)| *known == variable).map(|(_, value)| *value)
+    }
+
+    fn order(&mut self, order: NcOrder) -> bool {
+        if !self.refuses {
+            self.orders.push(order);
+        }
+        !self.refuses
+    }
+
+    fn show(&mut self, messages: &[u32]) {
+        messages.clone_into(&mut self.shown);
+    }
 }
 
 impl Bench {
@@ -18,7 +46,7 @@ impl Bench {
         for (number, name) in AxisNumber::all().zip(axes) {
             names.axes[number] = Some((*name).to_owned());
         }
-        Self { memory: Memory::new(), names, time: Time::ZERO }
+        Self { memory: Memory::new(), names, time: Time::ZERO, nc: BenchNc::default() }
     }
 
     /// The value at an address.
@@ -57,6 +85,7 @@ impl Bench {
             time: self.time,
             cycle_time: Time::from_millis(10),
             names: &self.names,
+            nc: &mut self.nc,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use zerocopy::IntoBytes;
 
+use super::NcServices;
 use crate::image::{AsBytes, Blocks, Bytes, Layout, Names, Part, Parts, Sinumerik, View};
 use crate::units::{AxisNumber, ChannelNumber, Time};
 
@@ -37,6 +38,8 @@ pub struct PlcIo<'a, L: Layout = Sinumerik> {
     pub cycle_time: Time,
     /// The names of the axes and channels of the machine.
     pub names: &'a Names,
+    /// What the NC offers beside the interface.
+    pub nc: &'a mut dyn NcServices,
 }
 
 impl<'a, L: Layout> PlcIo<'a, L> {
@@ -80,6 +83,7 @@ impl PlcIo<'_, AsBytes> {
             time: self.time,
             cycle_time: self.cycle_time,
             names: self.names,
+            nc: self.nc,
         })
     }
 }

@@ -22,12 +22,15 @@
 //! The machine calls [`PlcProgram::startup`] once after power on (OB100) and [`PlcProgram::scan`] in each PLC cycle (OB1). Between two
 //! scans, only queued commands and forces write to the PLC side.
 
+mod basic_program;
 #[cfg(test)]
 mod bench;
 mod blocks;
 mod closure;
 mod diagnosis;
 mod io;
+mod link;
+mod nc;
 mod process;
 mod programs;
 mod registry;
@@ -36,10 +39,15 @@ pub mod step7;
 #[cfg(test)]
 mod tests;
 
+pub use basic_program::{
+    AlarmMessages, ControlPanel, Group, MessageLayout, Messages, PanelInputs, PanelKind, PanelOutputs,
+};
 pub use blocks::{FallingEdge, OffDelay, OnDelay, ResetDominantLatch, RisingEdge, SetDominantLatch};
 pub use closure::{ClosureProgram, program, program_for, program_with_fault};
 pub use diagnosis::PlcDiagnosis;
 pub use io::PlcIo;
+pub use link::Link;
+pub use nc::{NcOrder, NcServices, NcVariable, NoNc};
 pub use process::PlcProcess;
 pub use programs::{
     GearChange, LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, PositionAxis, ToolChange,

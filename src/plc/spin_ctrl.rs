@@ -14,7 +14,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::plc::PlcIo;
+use crate::plc::{Link, PlcIo};
 use crate::units::{AxisNumber, Time};
 
 /// How long the NCK takes to answer a request at most: with neither 68.4 nor 68.7 after this time it has refused it.
@@ -58,7 +58,7 @@ pub struct SpinCtrlOutputs {
     pub state: u8,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 enum Step {
     #[default]
     Idle,
@@ -82,7 +82,7 @@ enum Step {
 }
 
 /// FC 18: one for each axis, called once per scan.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SpinCtrl {
     step: Step,
     start_was: bool,
@@ -96,6 +96,11 @@ pub struct SpinCtrl {
 impl SpinCtrl {
     /// One call.
     pub fn scan(&mut self, io: &mut PlcIo<'_>, inputs: &SpinCtrlInputs) -> SpinCtrlOutputs {
+        self.run(&mut io.link(), inputs)
+    }
+
+    /// One call, for a block that has only a part of the memory.
+    pub fn run(&mut self, io: &mut Link<'_>, inputs: &SpinCtrlInputs) -> SpinCtrlOutputs {
         let starts = inputs.start && !std::mem::replace(&mut self.start_was, inputs.start);
         self.start_was = inputs.start;
         if matches!(self.step, Step::GivesBack | Step::GivenBack) {
@@ -146,7 +151,7 @@ impl SpinCtrl {
         SpinCtrlOutputs { in_position, error: error != 0, state: error }
     }
 
-    fn begin(&mut self, io: &mut PlcIo<'_>, inputs: &SpinCtrlInputs) {
+    fn begin(&mut self, io: &mut Link<'_>, inputs: &SpinCtrlInputs) {
         let of_axis = matches!(inputs.function, 4..=8);
         self.turns = matches!(inputs.function, 2 | 3 | 9..=11);
         if !matches!(inputs.function, 1..=11) {
@@ -164,7 +169,7 @@ impl SpinCtrl {
         }
     }
 
-    fn wait_for_axis(&mut self, io: &mut PlcIo<'_>, inputs: &SpinCtrlInputs, since: Time) {
+    fn wait_for_axis(&mut self, io: &mut Link<'_>, inputs: &SpinCtrlInputs, since: Time) {
         let shown = io.from_nck.axis(inputs.axis);
         if shown.plc_axis() {
             io.to_nck.axis(inputs.axis).set_replacement_activation_signal(false);
@@ -178,7 +183,7 @@ impl SpinCtrl {
     }
 
     /// Writes the target and the start bit.
-    fn start(&mut self, io: &mut PlcIo<'_>, inputs: &SpinCtrlInputs) {
+    fn start(&mut self, io: &mut Link<'_>, inputs: &SpinCtrlInputs) {
         let (function, mode) = (inputs.function, inputs.mode);
         let signals = io.to_nck.axis(inputs.axis);
         signals.set_incremental_position(mode == 1);
@@ -205,7 +210,7 @@ impl SpinCtrl {
     }
 
     /// Until the NCK has reached the position, or has failed.
-    fn watch(&mut self, io: &PlcIo<'_>, axis: AxisNumber) {
+    fn watch(&mut self, io: &Link<'_>, axis: AxisNumber) {
         let shown = io.from_nck.axis(axis);
         if self.turns && shown.positioning_active() {
             self.step = if shown.position_reached() { Step::Done(0) } else { Step::Runs };
@@ -224,7 +229,7 @@ impl SpinCtrl {
         }
     }
 
-    fn end(&mut self, io: &mut PlcIo<'_>, axis: AxisNumber) {
+    fn end(&mut self, io: &mut Link<'_>, axis: AxisNumber) {
         if io.from_nck.axis(axis).positioning_active() {
             return;
         }
@@ -241,7 +246,7 @@ impl SpinCtrl {
 }
 
 /// All start bits go.
-fn stop(io: &mut PlcIo<'_>, axis: AxisNumber) {
+fn stop(io: &mut Link<'_>, axis: AxisNumber) {
     let signals = io.to_nck.axis(axis);
     signals.set_start_positioning_axis(false);
     signals.set_start_spindle_positioning(false);
@@ -250,7 +255,7 @@ fn stop(io: &mut PlcIo<'_>, axis: AxisNumber) {
 }
 
 /// The stops of rotation and oscillation come.
-fn stop_turning(io: &mut PlcIo<'_>, axis: AxisNumber) {
+fn stop_turning(io: &mut Link<'_>, axis: AxisNumber) {
     let signals = io.to_nck.axis(axis);
     signals.set_stop_spindle_rotation(true);
     signals.set_stop_spindle_oscillation(true);

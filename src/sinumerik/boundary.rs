@@ -64,6 +64,7 @@ impl Control for Nck {
             | ControlCommand::Cancel
             | ControlCommand::PlcMissing
             | ControlCommand::PlcRestarted
+            | ControlCommand::PlcMessages(_)
             | ControlCommand::Written(_)
             | ControlCommand::Fault { .. } => Ok(()),
         }
@@ -96,6 +97,7 @@ impl Control for Nck {
             }
             ControlCommand::PlcMissing => return self.plc_missing(),
             ControlCommand::PlcRestarted => self.plc_restarted(),
+            ControlCommand::PlcMessages(messages) => self.state.show_messages(messages),
             ControlCommand::Written(location) => self.written_from_outside(*location),
             &ControlCommand::Fault { axis, name, begins, affected } => {
                 return self.note_fault(axis, name, begins, affected);

@@ -341,6 +341,7 @@ impl Nck {
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_user_alarms(&self.parameters, to_nck);
+        self.state.raise_messages();
         self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.select_program_tests(to_nck);
         self.start_searches(to_nck);

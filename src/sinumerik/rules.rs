@@ -375,6 +375,8 @@ rules! {
     ExactStopWithoutControl "exact stop" "no position control";
     Standstill "standstill" "";
     SetpointsOutput "O-29" "new setpoints are output";
+    PlcMessage "DB2" "the PLC program shows a message";
+    PlcMessageEnds "DB2" "the PLC program shows the message no longer";
     // Only on the 828D.
     UserAlarm "DB1600" "the PLC sets a user alarm";
     UserAlarmEnds "DB1600" "the PLC resets a user alarm";

@@ -12,7 +12,7 @@ use opennck::image::{
     Area, AsBytes, Block, BlockTable, ByteRange, Interface, Layout, Memory, Names, Numbering, OverrideCoding, Part,
     Preset, Profile, SINUMERIK, Tables, ValueTerms, Window, Writer,
 };
-use opennck::plc::{PlcIo, PlcProgram, enable_all, program_for};
+use opennck::plc::{NoNc, PlcIo, PlcProgram, enable_all, program_for};
 use opennck::s7::Directory;
 use opennck::signals;
 use opennck::units::{AxisNumber, AxisSet, Time};
@@ -222,7 +222,7 @@ fn the_plc_changes_are_reported_by_axis() {
 }
 
 /// The memory as a program sees it in a scan.
-fn io<'a>(memory: &'a mut Memory, names: &'a Names) -> PlcIo<'a, AsBytes> {
+fn io<'a>(memory: &'a mut Memory, names: &'a Names, nc: &'a mut NoNc) -> PlcIo<'a, AsBytes> {
     PlcIo {
         to_nck: &mut memory.to_nck,
         from_nck: &memory.from_nck,
@@ -237,6 +237,7 @@ fn io<'a>(memory: &'a mut Memory, names: &'a Names) -> PlcIo<'a, AsBytes> {
         time: Time::ZERO,
         cycle_time: Time::ZERO,
         names,
+        nc,
     }
 }
 
@@ -250,16 +251,16 @@ fn a_closure_uses_its_own_structures_and_a_closure_for_another_control_stops_the
         }
         Ok(())
     });
-    unload.scan(&mut io(&mut memory, &names)).unwrap();
+    unload.scan(&mut io(&mut memory, &names, &mut NoNc)).unwrap();
     let bit = |symbol| memory.read(names.resolve(&memory, symbol).unwrap());
     assert_eq!((bit("A1.power"), bit("A31.power"), bit("A32.power")), (1, 1, 0));
     let mut count = program_for::<_, AsBytes>("count", (), |(), io| {
         io.to_nck[1] += 1;
         Ok(())
     });
-    count.scan(&mut io(&mut memory, &names)).unwrap();
+    count.scan(&mut io(&mut memory, &names, &mut NoNc)).unwrap();
     assert_eq!(memory.to_nck[1], 1);
-    let fault = enable_all().scan(&mut io(&mut memory, &names)).unwrap_err();
+    let fault = enable_all().scan(&mut io(&mut memory, &names, &mut NoNc)).unwrap_err();
     assert_eq!(fault.reason, "`enable_all` is written for another interface than own, the interface of this machine");
 }
 

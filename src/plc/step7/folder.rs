@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::source::{Place, Problem, Table, Value, read_text, unreadable};
 use crate::units::Time;
 
+use super::basic_program::by_name;
 use super::compile::{Settings, Source, SourceKind};
 use super::instruction::{BlockKind, BlockName};
 use super::text::address::{Address, parse};
@@ -17,8 +18,6 @@ pub struct PlcToml {
     pub cycle: Option<Time>,
     /// The period of OB35.
     pub ob35: Option<Time>,
-    /// Blocks of the basic program that stay ours although the sources hold them.
-    pub ours: Vec<BlockName>,
     /// How the sources are compiled.
     pub settings: Settings,
 }
@@ -120,7 +119,7 @@ impl PlcToml {
                 let name = entry.text("a block, as \"FC10\"")?;
                 let block = block(name)
                     .ok_or_else(|| entry.expected("a block, as \"FC10\"", "write the kind and the number"))?;
-                self.ours.push(block);
+                self.settings.ours.push(block);
             }
         }
         for (key, place, node) in table.take_rest() {
@@ -130,7 +129,7 @@ impl PlcToml {
             let Value::Text(library) = &node.value else {
                 return Err(node.expected("the name of a library function", "write FC210 = \"SCALE\""));
             };
-            if super::system::by_name(library).is_none() {
+            if super::system::by_name(library).or_else(|| by_name(name.kind, library)).is_none() {
                 let names: Vec<_> =
                     super::system::SYSTEM.iter().filter(|row| row.block.is_none()).map(|row| row.name).collect();
                 return Err(node.expected(
@@ -162,7 +161,7 @@ mod tests {
         assert_eq!((toml.cycle, toml.ob35), (Some(Time::from_millis(10)), Some(Time::from_millis(100))));
         assert!(toml.settings.ignores_missing);
         assert_eq!(toml.settings.least, [128, 128, 4096, 32, 32]);
-        assert_eq!(toml.ours, [BlockName { kind: BlockKind::Fb, number: 1 }]);
+        assert_eq!(toml.settings.ours, [BlockName { kind: BlockKind::Fb, number: 1 }]);
         assert_eq!(toml.settings.library[&BlockName { kind: BlockKind::Fc, number: 210 }], "SCALE");
         for (text, wanted) in [
             ("cycle = 10", "duration"),

@@ -113,7 +113,7 @@ impl LoadedProgram {
         let tested = seen.tested.iter().filter_map(|&(named, value)| match named {
             Named::Timer(number) => Some(Tested::Timer(number, value)),
             Named::Counter(number) => Some(Tested::Counter(number, value)),
-            Named::Area(..) | Named::Block(..) => {
+            Named::Area(..) | Named::Block(..) | Named::ToNck(_) => {
                 let (part, bit) = self.place(named)?;
                 let (offset, bit) = (bit / 8, u8::try_from(bit % 8).ok()?);
                 Some(Tested::Bit(Location { part, offset, bit, width: 1, format: Format::Unsigned }, value))
@@ -141,6 +141,7 @@ impl LoadedProgram {
             Named::Area(Area::Inputs, bit) => (Part::Inputs, bit),
             Named::Area(Area::Outputs, bit) => (Part::Outputs, bit),
             Named::Area(Area::Flags, bit) => (Part::Flags, bit),
+            Named::ToNck(bit) => (Part::ToNck, bit),
             Named::Timer(number) => (Part::Timers, u32::from(number) * 16),
             Named::Counter(number) => (Part::Counters, u32::from(number) * 16),
             Named::Block(number, bit) => {
@@ -214,6 +215,13 @@ impl PlcProgram for LoadedProgram {
             let name = block.symbol.as_deref().map(Into::into);
             memory.blocks.put(DataBlock { number: block.number, name, bytes: Bytes::from(block.bytes.clone()) });
         }
+        for (number, length) in self.cpu.program().basic_data_blocks() {
+            let old = memory.blocks.get(number);
+            let is_untouched = old.is_none_or(|bytes| bytes.iter().all(|byte| *byte == 0));
+            if is_untouched && old.is_none_or(|bytes| bytes.len() < length) {
+                memory.blocks.put(DataBlock { number, name: None, bytes: Bytes::zeroed(length) });
+            }
+        }
         self.map = Arc::new(Map::new(memory, names));
         self.inputs = Vec::with_capacity(memory.inputs.len());
     }
@@ -223,6 +231,7 @@ impl PlcProgram for LoadedProgram {
     }
 
     fn startup(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        io.nc.show(&[]);
         self.run(io, |cpu, view, now| cpu.startup(view, now))
     }
 

@@ -19,6 +19,7 @@
 //! # Ok::<(), Box<opennck::plc::step7::Stop>>(())
 //! ```
 
+mod basic_program;
 mod compile;
 mod coverage;
 mod engine;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::basic_program::BLOCKS;
 use super::instruction::{BlockKind, BlockName, CallSite, Copy, Line, MakePointer, Op, ParameterSource};
 
 /// A block with statements.
@@ -64,6 +65,8 @@ pub struct Program {
     pub(in crate::plc::step7) fingerprint: u64,
     /// The symbols of bits, timers and counters by their addresses.
     pub(in crate::plc::step7) symbols: Arc<BTreeMap<String, String>>,
+    /// Blocks of the basic program that are called and built in, with their indices.
+    pub(in crate::plc::step7) basic: Vec<(BlockName, usize)>,
     /// Blocks that are called, are nowhere, and are left out.
     pub(in crate::plc::step7) ignored: Vec<BlockName>,
     /// Data blocks that are used, and that the machine must bring.
@@ -98,6 +101,17 @@ impl Program {
     /// Its blocks with statements, with their symbols.
     pub fn code_blocks(&self) -> impl Iterator<Item = (BlockName, Option<&str>)> {
         self.blocks.iter().map(|block| (block.name, block.symbol.as_deref()))
+    }
+
+    /// The data blocks that its blocks of the basic program need and the sources do not have, with their lengths.
+    pub(in crate::plc::step7) fn basic_data_blocks(&self) -> impl Iterator<Item = (u16, usize)> {
+        let needed = self.basic.iter().flat_map(|&(_, index)| BLOCKS[index].data_blocks());
+        needed.filter(|(number, _)| self.data.iter().all(|block| block.number != *number))
+    }
+
+    /// The blocks of the basic program that are called and built in, with their names.
+    pub fn basic_program(&self) -> impl Iterator<Item = (BlockName, &'static str)> {
+        self.basic.iter().map(|&(name, index)| (name, BLOCKS[index].name))
     }
 
     /// Blocks that are called, are nowhere, and are left out.

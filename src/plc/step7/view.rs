@@ -5,7 +5,8 @@
 //! where the next transfer overwrites it. Inputs that it writes keep the value until the end of the scan.
 
 use crate::image::{AsBytes, Blocks, Memory, Names, Part};
-use crate::plc::PlcIo;
+use crate::plc::{Link, NcServices, PlcIo};
+use crate::units::Time;
 
 use super::engine::{Area, Areas, OpenBlock};
 
@@ -104,6 +105,9 @@ pub(super) struct View<'a> {
     outputs: &'a mut [u8],
     flags: &'a mut [u8],
     blocks: &'a mut Blocks,
+    time: Time,
+    names: &'a Names,
+    nc: &'a mut dyn NcServices,
 }
 
 impl<'a> View<'a> {
@@ -120,6 +124,9 @@ impl<'a> View<'a> {
             outputs: io.outputs,
             flags: io.flags,
             blocks: io.blocks,
+            time: io.time,
+            names: io.names,
+            nc: io.nc,
         }
     }
 
@@ -169,6 +176,11 @@ impl Areas for View<'_> {
             None => self.own(block)?.len(),
         };
         Some(OpenBlock { length: u32::try_from(length).ok()?, ..block })
+    }
+
+    fn link(&mut self) -> Option<Link<'_>> {
+        let bytes = (&mut *self.to_nck, self.from_nck, self.hmi);
+        Link::of_bytes(bytes, self.blocks, (self.time, self.names), self.nc)
     }
 
     fn is_interface(&self, block: OpenBlock) -> bool {

@@ -12,6 +12,18 @@ static USER_ALARM: Alarm = Alarm {
     cancel: Cancel::ByItself,
 };
 
+/// The messages of a PLC program by DB2 and FC 10.
+static PLC_MESSAGE: Alarm = Alarm {
+    number: AlarmNumber(510_000),
+    text: "message of the PLC program",
+    reaction: Reaction::DISPLAY,
+    cancel: Cancel::ByItself,
+};
+
+fn plc_message(number: AlarmNumber) -> Option<&'static Alarm> {
+    (510_000..800_000).contains(&number.0).then_some(&PLC_MESSAGE)
+}
+
 fn user_alarm(number: AlarmNumber) -> Option<&'static Alarm> {
     (700_000..700_248).contains(&number.0).then_some(&USER_ALARM)
 }
@@ -29,6 +41,11 @@ impl Alarm {
             table.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &table[index])
         };
         let tables = [CATALOGUE, programs::PROGRAMS, AXIS_EXCHANGE];
-        tables.into_iter().find_map(in_table).or_else(|| programs::of_a_cycle(number)).or_else(|| user_alarm(number))
+        tables
+            .into_iter()
+            .find_map(in_table)
+            .or_else(|| programs::of_a_cycle(number))
+            .or_else(|| user_alarm(number))
+            .or_else(|| plc_message(number))
     }
 }

@@ -82,6 +82,12 @@ General {
     12070 OVR_FACTOR_SPIND_SPEED ovr_factor_spind_speed: [f64; 31] = SPINDLE_OVERRIDE; "factor", Range::NOT_NEGATIVE, PowerOn;
     /// limit of a binary coded override
     12100 OVR_FACTOR_LIMIT_BIN ovr_factor_limit_bin: f64 = 1.2; "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// how many of MD14510 are in DB20
+    14504 MAXNUM_USER_DATA_INT maxnum_user_data_int: i32 = 0; "", Range::between(0.0, 256.0), PowerOn;
+    /// how many of MD14512 are in DB20
+    14506 MAXNUM_USER_DATA_HEX maxnum_user_data_hex: i32 = 0; "", Range::between(0.0, 256.0), PowerOn;
+    /// how many of MD14514 are in DB20
+    14508 MAXNUM_USER_DATA_FLOAT maxnum_user_data_float: i32 = 0; "", Range::between(0.0, 32.0), PowerOn;
     /// integers for the PLC program; the first 32 are in DB4500 of an 828D
     14510 USER_DATA_INT user_data_int: Many<i32, 256> = Many::default(); "", Range::between(-32_768.0, 32_767.0), PowerOn;
     /// bytes for the PLC program; the first 32 are in DB4500 of an 828D

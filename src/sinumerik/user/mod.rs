@@ -1,4 +1,4 @@
-//! USER: what the 828D has for the PLC of a machine, and the 840D sl has not: user alarms in DB1600, machine data for the PLC in DB4500,
+//! USER: the messages of a PLC program (`messages.rs`), and what the 828D has for the PLC of a machine, and the 840D sl has not: user alarms in DB1600, machine data for the PLC in DB4500,
 //! actual values and distances to go in DB570x.
 //!
 //! Called at the start of the decisions of a cycle, so that the reactions of an alarm act in it. A bit of DB1600 that the PLC sets raises its
@@ -13,4 +13,5 @@
 //! `state.rs` contains the active alarms, `alarms.rs` is the stage.
 
 pub(super) mod alarms;
+mod messages;
 pub(super) mod state;

@@ -41,6 +41,15 @@ pub(in crate::sinumerik) struct ActiveAlarm {
     pub cause: EventId,
 }
 
+/// A message that the PLC program shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct PlcMessage {
+    /// Its number.
+    pub number: u32,
+    /// The event with which it began.
+    pub cause: EventId,
+}
+
 /// The user alarms, and the values that the PLC requests.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct User {
@@ -52,6 +61,8 @@ pub(in crate::sinumerik) struct User {
     pub ended: EventId,
     /// DB2600.DBX1.1 and 1.2: the PLC requests actual values, and distances to go.
     pub requests: [bool; 2],
+    /// The messages of the PLC program, in the order in which they came.
+    pub messages: Vec<PlcMessage>,
 }
 
 impl User {

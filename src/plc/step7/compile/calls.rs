@@ -9,6 +9,7 @@ use crate::plc::step7::instruction::{
     BlockKind, BlockName, CallSite, Copy, CopySource, Instance, MakePointer, Number, Op, Operand as Place,
     ParameterSource, Pointed, Space, Target, Width,
 };
+use crate::plc::step7::system::BASIC;
 use crate::plc::step7::text::constants::Constant;
 use crate::plc::step7::text::finding::{At, Fault};
 use crate::plc::step7::text::parser::code;
@@ -22,6 +23,9 @@ impl Unit<'_, '_> {
     /// What a call of a block reaches.
     pub(in crate::plc::step7) fn target(&mut self, name: BlockName, at: At) -> Done<Target> {
         if let Some(index) = self.known.built_in(name) {
+            if let Some(basic) = index.checked_sub(BASIC) {
+                self.tables.basic.insert((name, basic));
+            }
             return Ok(Target::System(u16::try_from(index).unwrap_or(u16::MAX)));
         }
         if let Some(&index) = self.tables.index.get(&name) {

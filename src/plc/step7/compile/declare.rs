@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::plc::step7::instruction::{BlockKind, BlockName};
-use crate::plc::step7::system::{SYSTEM, by_name, by_number};
+use crate::plc::step7::system::layout_of;
 use crate::plc::step7::text::address::Address;
 use crate::plc::step7::text::constants::Constant;
 use crate::plc::step7::text::finding::{At, Fault};
@@ -12,6 +12,8 @@ use crate::plc::step7::text::parser::is_void;
 use crate::plc::step7::text::symbols::Symbols;
 use crate::plc::step7::text::syntax::{Block, Body, Declaration, Declared, Name, Step};
 use crate::plc::step7::text::types::{Array, Layout, Section, Type, store};
+
+use super::Settings;
 
 /// How deep blocks and types may contain each other.
 const DEEPEST: usize = 24;
@@ -39,7 +41,11 @@ pub(in crate::plc::step7) struct Known<'a> {
     pub(in crate::plc::step7) symbols: &'a Symbols,
     pub(in crate::plc::step7) sources: BTreeMap<BlockName, &'a Block>,
     /// Library functions by the names that `plc.toml` gives.
-    library: &'a BTreeMap<BlockName, String>,
+    pub(super) library: &'a BTreeMap<BlockName, String>,
+    /// Blocks of the basic program that stay ours although the sources hold them.
+    pub(super) ours: &'a [BlockName],
+    /// The parameters of the first call of each block.
+    pub(super) called: BTreeMap<BlockName, Vec<String>>,
     types: BTreeMap<BlockName, Type>,
     pub(in crate::plc::step7) interfaces: BTreeMap<BlockName, Arc<Interface>>,
     pub(in crate::plc::step7) data: BTreeMap<u16, Data>,
@@ -52,12 +58,14 @@ impl<'a> Known<'a> {
     pub(in crate::plc::step7) fn new(
         blocks: impl Iterator<Item = &'a Block>,
         symbols: &'a Symbols,
-        library: &'a BTreeMap<BlockName, String>,
+        settings: &'a Settings,
     ) -> Self {
         let mut known = Self {
             symbols,
             sources: BTreeMap::new(),
-            library,
+            library: &settings.library,
+            ours: &settings.ours,
+            called: BTreeMap::new(),
             types: BTreeMap::new(),
             interfaces: BTreeMap::new(),
             data: BTreeMap::new(),
@@ -67,6 +75,7 @@ impl<'a> Known<'a> {
         for block in blocks {
             known.enter(block);
         }
+        known.note_calls();
         let names: Vec<_> = known.sources.keys().copied().collect();
         for name in names {
             let done = match name.kind {
@@ -80,6 +89,7 @@ impl<'a> Known<'a> {
                 known.faults.push(fault);
             }
         }
+        known.add_instances();
         known
     }
 
@@ -157,7 +167,7 @@ impl<'a> Known<'a> {
             return Ok(Some(Arc::clone(interface)));
         }
         if let Some(system) = self.built_in(name) {
-            let layout = SYSTEM[system].layout();
+            let layout = layout_of(system);
             let interface = Interface { layout, temporary: Layout::default(), is_version_1: false };
             return Ok(Some(self.keep(name, interface)));
         }
@@ -171,27 +181,6 @@ impl<'a> Known<'a> {
         let interface = Arc::new(interface);
         self.interfaces.insert(name, Arc::clone(&interface));
         interface
-    }
-
-    /// The index of a built-in block: by its number, or for a function by its name in `plc.toml`, in the header or in the symbol table.
-    pub(in crate::plc::step7) fn built_in(&self, name: BlockName) -> Option<usize> {
-        if let Some(index) = by_number(name) {
-            return Some(index);
-        }
-        if name.kind != BlockKind::Fc {
-            return None;
-        }
-        if let Some(library) = self.library.get(&name) {
-            return by_name(library);
-        }
-        let source = self.sources.get(&name);
-        let is_empty =
-            source.is_none_or(|block| matches!(&block.body, Body::Code { statements, .. } if statements.is_empty()));
-        if !is_empty {
-            return None;
-        }
-        let header = source.and_then(|block| block.header_name.as_deref());
-        header.and_then(by_name).or_else(|| self.symbols.of_block(name).and_then(by_name))
     }
 
     fn read_interface(

@@ -2,6 +2,7 @@
 //!
 //! All findings are collected, and a program exists only if there are none that prevent it.
 
+mod built_in;
 mod calls;
 mod declare;
 mod statements;
@@ -56,6 +57,8 @@ pub struct Settings {
     pub ignores_missing: bool,
     /// Library functions by their numbers: `FC210` is `SCALE`.
     pub library: BTreeMap<BlockName, String>,
+    /// Blocks of the basic program that stay ours although the sources hold them.
+    pub ours: Vec<BlockName>,
     /// The least numbers of bytes of I, Q, M, and of timers and counters.
     pub least: [u32; 5],
 }
@@ -63,7 +66,7 @@ pub struct Settings {
 impl Default for Settings {
     /// Calls of missing blocks are findings; the areas are at least as large as in a machine without a program.
     fn default() -> Self {
-        Self { ignores_missing: false, library: BTreeMap::new(), least: [128, 128, 256, 32, 32] }
+        Self { ignores_missing: false, library: BTreeMap::new(), ours: Vec::new(), least: [128, 128, 256, 32, 32] }
     }
 }
 
@@ -104,7 +107,7 @@ pub fn compile(sources: &[Source], settings: &Settings) -> Compiled {
             }
         }
     }
-    let mut known = Known::new(parsed.iter().map(|(block, _)| block), &symbols, &settings.library);
+    let mut known = Known::new(parsed.iter().map(|(block, _)| block), &symbols, settings);
     let language_of = |block: &Block| {
         parsed
             .iter()
@@ -246,6 +249,7 @@ impl Builder {
             statements: self.statements,
             fingerprint: fingerprint(sources),
             symbols: Arc::new(known.symbols.by_address()),
+            basic: self.tables.basic.into_iter().collect(),
             ignored: self.tables.missing.into_iter().collect(),
             foreign: self.tables.foreign.into_iter().collect(),
         }

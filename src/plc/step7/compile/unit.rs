@@ -30,6 +30,8 @@ pub(in crate::plc::step7) struct Tables {
     pub(in crate::plc::step7) used: [u32; 5],
     /// Data blocks that are used and not in the sources.
     pub(in crate::plc::step7) foreign: std::collections::BTreeSet<u16>,
+    /// Blocks of the basic program that are called and built in, by their indices and the numbers under which they are called.
+    pub(in crate::plc::step7) basic: std::collections::BTreeSet<(BlockName, usize)>,
     /// Blocks that are called and nowhere.
     pub(in crate::plc::step7) missing: std::collections::BTreeSet<BlockName>,
 }

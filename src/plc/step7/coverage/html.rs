@@ -39,6 +39,10 @@ impl Coverage {
             let _ = writeln!(page, "<tr><td>{noun}</td><td>{done}</td><td>{all}</td><td>{percent} %</td></tr>");
         }
         page += "</table>\n";
+        if !self.basic_program.is_empty() {
+            let blocks = escaped(&self.basic_program.join(", "));
+            let _ = writeln!(page, "<p>Built in, not counted: {blocks}</p>");
+        }
         let unchanged: Vec<_> = self.unchanged().collect();
         self.list(program, &mut page, "Contacts that never changed", &unchanged, |one| {
             if one.contact.is_some_and(|[_, yes]| yes) { "always 1" } else { "always 0" }

@@ -47,6 +47,7 @@ impl Coverage {
             "counts": {
                 "statements": of(statements), "networks": of(networks), "branches": of(branches), "contacts": of(contacts),
             },
+            "built_in": self.basic_program,
             "unchanged": unchanged,
             "files": files,
         });

@@ -38,6 +38,8 @@ pub struct Coverage {
     pub files: Vec<(String, String)>,
     /// Its statements, by block.
     pub statements: Vec<StatementCoverage>,
+    /// Blocks of the basic program that are built in and called, as `FC10 AL_MSG`: none of the statements is theirs.
+    pub basic_program: Vec<String>,
     fingerprint: u64,
 }
 
@@ -82,7 +84,8 @@ impl Coverage {
                 Kind::Branch => statement.branch = Some(both),
             }
         }
-        Self { program: name.to_owned(), files, statements, fingerprint: program.fingerprint }
+        let basic_program = program.basic_program().map(|(block, name)| format!("{block} {name}")).collect();
+        Self { program: name.to_owned(), files, statements, basic_program, fingerprint: program.fingerprint }
     }
 
     /// Whether it is of the same program.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::plc::step7::basic_program::BasicState;
 use crate::plc::step7::instruction::Logic;
 use crate::plc::step7::program::Program;
 
@@ -71,6 +72,8 @@ pub struct CpuState {
     pub(in crate::plc::step7) clock_shift: i64,
     /// The start information of the last start OB.
     pub(in crate::plc::step7) start_information: [u8; 20],
+    /// The memory of the basic program.
+    pub(in crate::plc::step7) basic: BasicState,
 }
 
 /// A bracket.
@@ -180,6 +183,7 @@ impl Cpu {
             is_disabled: false,
             clock_shift: 0,
             start_information: [0; 20],
+            basic: BasicState::default(),
         };
         let work = Work {
             frames: Vec::with_capacity(depth),

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::plc::Link;
 use crate::plc::step7::program::{Program, ProgramBlock};
 
 /// An area that is one piece of bytes.
@@ -42,6 +43,11 @@ pub trait Areas {
     /// Whether a data block is one of an interface with a control.
     fn is_interface(&self, _block: OpenBlock) -> bool {
         false
+    }
+
+    /// The interface and the NC, as the blocks of the basic program see them; `None` without a machine.
+    fn link(&mut self) -> Option<Link<'_>> {
+        None
     }
 
     /// Bytes of a data block; `None` beyond its end.

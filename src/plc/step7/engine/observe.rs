@@ -30,6 +30,9 @@ impl Cpu {
     /// Before an instruction: if it will change memory, remembers why.
     pub(super) fn foresee<A: Areas>(&mut self, areas: &A, op: Op, pc: u32) {
         let db = self.state.registers.db;
+        if let Some(observed) = &mut self.observed {
+            observed.pc = pc;
+        }
         if let Op::Call(index) = op {
             let clock = self.clock(areas, index);
             if let Some(observed) = &mut self.observed {
@@ -86,7 +89,7 @@ impl Cpu {
     fn clock<A: Areas>(&self, areas: &A, index: u32) -> Option<Clock> {
         let site = self.program.calls[index as usize];
         let Target::System(system) = site.target else { return None };
-        let system = SYSTEM[usize::from(system)].system;
+        let system = SYSTEM.get(usize::from(system))?.system;
         if !matches!(system, System::Pulse | System::OnDelay | System::OffDelay) {
             return None;
         }
@@ -117,6 +120,31 @@ impl Cpu {
         let place = Named::Block(block.number, begin + Q);
         if let Some(observed) = &mut self.observed {
             observed.seen.push(Seen { pc, place, bits: 1, value, tested });
+        }
+    }
+
+    /// After a block of the basic program: what it wrote to the NCK, without reasons of its own.
+    pub(in crate::plc::step7) fn note_interface(&mut self, before: &[u8], now: &[u8]) {
+        let Some(observed) = &mut self.observed else { return };
+        let pc = observed.pc;
+        for (byte, (before, now)) in (0_u32..).zip(before.iter().zip(now)) {
+            for bit in (0..8).filter(|bit| (before ^ now) >> bit & 1 == 1) {
+                if observed.seen.len() < CHANGES || observed.has_all_writes {
+                    let (place, value) = (Named::ToNck(byte * 8 + bit), now >> bit & 1 == 1);
+                    observed.seen.push(Seen { pc, place, bits: 1, value, tested: ArrayVec::new() });
+                }
+            }
+        }
+    }
+
+    /// An output of a block of the basic program changes.
+    pub(in crate::plc::step7) fn note_output(&mut self, spot: Spot, value: bool) {
+        let place = self.named(spot);
+        if let (Some(place), Some(observed)) = (place, &mut self.observed)
+            && (observed.seen.len() < CHANGES || observed.has_all_writes)
+        {
+            let pc = observed.pc;
+            observed.seen.push(Seen { pc, place, bits: 1, value, tested: ArrayVec::new() });
         }
     }
 

@@ -24,6 +24,8 @@ pub(in crate::plc::step7) enum Named {
     Block(u16, u32),
     Timer(u16),
     Counter(u16),
+    /// The part that the PLC writes to the NCK.
+    ToNck(u32),
 }
 
 /// A change of the memory, and the operands that made it.
@@ -47,6 +49,8 @@ pub(in crate::plc::step7) struct Observed {
     pub(in crate::plc::step7) seen: Vec<Seen>,
     /// Bits that are written with the value that they have count, too, and those that are not set or not reset.
     pub(in crate::plc::step7) has_all_writes: bool,
+    /// The instruction that runs.
+    pub(in crate::plc::step7) pc: u32,
     /// The IEC timer that is being called.
     pub(in crate::plc::step7) clock: Option<Clock>,
 }
@@ -62,6 +66,12 @@ pub(in crate::plc::step7) struct Clock {
 
 impl Observed {
     pub(in crate::plc::step7) fn new(instructions: usize) -> Self {
-        Self { marks: vec![0; instructions], seen: Vec::with_capacity(CHANGES), has_all_writes: false, clock: None }
+        Self {
+            marks: vec![0; instructions],
+            seen: Vec::with_capacity(CHANGES),
+            has_all_writes: false,
+            pc: 0,
+            clock: None,
+        }
     }
 }

@@ -202,6 +202,15 @@ impl Cpu {
         Ok(())
     }
 
+    /// The process interrupt of the basic program: OB40 runs within OB1, which then goes on as it was.
+    pub(in crate::plc::step7) fn process_interrupt<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
+        if self.work.in_error || self.program.find(BlockKind::Ob, 40).is_none() {
+            return Ok(());
+        }
+        let information = self.information(0x11, 0x41, 16, 40);
+        self.error_block(areas, &information)
+    }
+
     /// Runs OB80, OB121 or OB122 within another block, which then goes on as it was.
     fn error_block<A: Areas>(&mut self, areas: &mut A, information: &Information) -> Result<(), Fault> {
         let (registers, mcr, pc, delayed) = (self.state.registers, self.work.mcr, self.work.pc, self.state.delayed);

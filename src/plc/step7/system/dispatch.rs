@@ -4,13 +4,16 @@ use crate::plc::step7::engine::{Areas, Cpu, Fault, Spot};
 use crate::plc::step7::instruction::{Operand, Width};
 use crate::plc::step7::text::constants::days;
 
-use super::interface::{SYSTEM, System};
+use super::interface::{BASIC, SYSTEM, System};
 
 const DAY_MILLIS: i64 = 86_400_000;
 
 impl Cpu {
     /// Runs a built-in block in the frame that was made for it.
     pub(in crate::plc::step7) fn built_in<A: Areas>(&mut self, areas: &mut A, index: u16) -> Result<(), Fault> {
+        if let Some(basic) = usize::from(index).checked_sub(BASIC) {
+            return self.basic_program(areas, basic);
+        }
         match SYSTEM[usize::from(index)].system {
             System::SetClock => self.set_clock(areas),
             System::ReadClock => {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::plc::step7::basic_program::BLOCKS;
 use crate::plc::step7::instruction::{BlockKind, BlockName};
 use crate::plc::step7::text::types::{Array, Layout, Section, Type};
 
@@ -389,6 +390,17 @@ impl Kind {
             Self::Information => bytes(20),
             Self::TimerState => bytes(10),
         }
+    }
+}
+
+/// The index of the first block of the basic program among the built-in blocks.
+pub(in crate::plc::step7) const BASIC: usize = 1000;
+
+/// The parameters of a built-in block, and for a function block its instance.
+pub(in crate::plc::step7) fn layout_of(index: usize) -> Layout {
+    match index.checked_sub(BASIC) {
+        Some(basic) => BLOCKS[basic].layout.clone(),
+        None => SYSTEM[index].layout(),
     }
 }
 

@@ -7,4 +7,5 @@ mod interface;
 mod library;
 mod transfer;
 
-pub(in crate::plc::step7) use interface::{SYSTEM, System, by_name, by_number};
+pub(in crate::plc::step7) use interface::{BASIC, SYSTEM, System, by_name, by_number, layout_of};
+pub(in crate::plc::step7) use transfer::Region;

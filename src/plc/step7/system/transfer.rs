@@ -23,6 +23,11 @@ impl Cpu {
     /// The memory of a parameter of the type ANY.
     pub(in crate::plc::step7) fn region<A: Areas>(&mut self, areas: &A, index: u16) -> Result<Region, Fault> {
         let at = self.reference(index)?;
+        self.region_at(areas, at)
+    }
+
+    /// The memory to which an ANY at a place points.
+    pub(in crate::plc::step7) fn region_at<A: Areas>(&mut self, areas: &A, at: Spot) -> Result<Region, Fault> {
         let bytes: [u8; 10] = self.read_bytes(areas, at)?;
         let [syntax, code, count_high, count_low, block_high, block_low, pointer @ ..] = bytes;
         if syntax != 0x10 {

@@ -235,7 +235,7 @@ fn wrong_calls_are_refused_with_their_names() {
         ("CALL FC 1 ( a := M 0.0, b := 2, RET_VAL := MW 2 );", "expected an operand of the width word"),
         ("CALL FC 1 ( a := 1.5, b := 2, RET_VAL := MW 2 );", "expected a INT for `a`"),
         ("CALL FC 1 ( a := 1, b := 2, RET_VAL := 3 );", "`RET_VAL` needs an operand that can be written"),
-        ("CALL FC 2;", "FC2 is called and is nowhere"),
+        ("CALL FC 202;", "FC202 is called and is nowhere"),
         ("CALL SFC 99;", "SFC99 is not built in"),
         ("CALL FB 1;", "expected an instance data block"),
         ("CALL DB 10;", "DB10 cannot be called"),

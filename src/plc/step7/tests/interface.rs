@@ -63,21 +63,21 @@ fn nothing_is_half_loaded_and_all_faults_are_listed() {
 
 #[test]
 fn missing_blocks_are_listed_once_or_left_out() {
-    let text = ob1("CALL FC 10; CALL FC 10; CALL FC 11 ( a := 1 ); L 1; T MW 0;");
+    let text = ob1("CALL FC 110; CALL FC 110; CALL FC 111 ( a := 1 ); L 1; T MW 0;");
     let sources = [Source::statements("a.awl", &*text)];
     let compiled = compile(&sources, &Settings::default());
     let missing: Vec<_> = compiled.findings.iter().map(|finding| (finding.kind, finding.what.as_str())).collect();
     assert_eq!(
         missing,
         [
-            (FindingKind::Missing, "FC10 is called and is nowhere"),
-            (FindingKind::Missing, "FC11 is called and is nowhere")
+            (FindingKind::Missing, "FC110 is called and is nowhere"),
+            (FindingKind::Missing, "FC111 is called and is nowhere")
         ]
     );
     let settings = Settings { ignores_missing: true, ..Settings::default() };
     let program = compile(&sources, &settings).program.unwrap();
     let name = |number| BlockName { kind: BlockKind::Fc, number };
-    assert_eq!(program.left_out(), [name(10), name(11)]);
+    assert_eq!(program.left_out(), [name(110), name(111)]);
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Tests of the compiler and the engine. Expected values come from the rules of the operations and from arithmetic beside them.
 
 mod addressing;
+mod basic_blocks;
+mod basic_program;
 mod blocks;
 mod calls;
 mod control;
