@@ -62,6 +62,7 @@ const MODULES: &[(&str, &[&str])] = &[
     ("live", &["image", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),
     ("s7", &["control", "image", "live", "machine", "source", "units", "variables"]),
     ("web", &["control", "image", "live", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),
+    ("symbol_files", &["image"]),
     ("cli", &["*"]),
 ];
 

@@ -29,6 +29,18 @@ impl Files {
             .map_err(|problem| Problem { what: format!("{}, for {option}", problem.what), ..problem })
     }
 
+    /// Opens an output file of a kind that is an input elsewhere: it must not exist, for it could be the work of a person.
+    pub(super) fn open_new(option: &'static str, path: &Path) -> Result<Replacement, Problem> {
+        if path.exists() {
+            let what = format!("expected a new file for {option}, found one that exists");
+            return Err(
+                Place::file(&path.display().to_string()).problem(what, "delete it first, or choose another name")
+            );
+        }
+        Replacement::begin(path)
+            .map_err(|problem| Problem { what: format!("{}, for {option}", problem.what), ..problem })
+    }
+
     /// Refuses to write an output over an input, which would destroy the input, and two outputs to one file.
     pub(super) fn check(&mut self, option: &'static str, path: &Path) -> Result<(), Problem> {
         let real = target(path);

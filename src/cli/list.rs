@@ -85,7 +85,8 @@ impl<C: Cell> List<C> {
         }
     }
 
-    fn text(&self, format: Format) -> Result<String, Problem> {
+    /// The list as a text.
+    pub(super) fn text(&self, format: Format) -> Result<String, Problem> {
         let failed =
             |error: String| Problem::new(format!("the list cannot be written: {error}"), "choose another format");
         match format {

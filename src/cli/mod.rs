@@ -115,9 +115,12 @@ enum Command {
         /// Profile of the addresses: 840d_sl, 828d, or isg for the ISG kernel and TwinCAT CNC.
         #[arg(long, default_value = controls::default_profile())]
         profile: String,
-        /// Output format.
+        /// Output format: a list, or the symbol file of another tool.
         #[arg(long, value_enum, default_value = "table")]
-        format: Format,
+        format: signals::SignalFormat,
+        /// Writes to a file instead of standard output. A symbol table or source of STEP 7 that exists is never replaced.
+        #[arg(long, value_name = "FILE")]
+        output: Option<PathBuf>,
     },
     /// Lists the alarm catalogue: number, whether the model raises it, how it is cancelled, its reactions, its text.
     Alarms {
@@ -315,8 +318,9 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::Serve(arguments)) => serve::serve(&arguments, programs, &mut output),
         #[cfg(feature = "s7")]
         Some(Command::S7 { command }) => s7::run(&command, &mut output),
-        Some(Command::Signals { filter, machine, profile, format }) => {
-            signals::signals(filter.as_deref(), machine.as_deref(), &profile, format, &mut output)
+        Some(Command::Signals { filter, machine, profile, format, output: file }) => {
+            let listed = signals::Listed { filter: filter.as_deref(), format, file: file.as_deref() };
+            signals::signals(machine.as_deref(), &profile, &listed, &mut output)
         }
         Some(Command::Alarms { filter, profile, format }) => {
             alarms::alarms(filter.as_deref(), profile.as_deref(), format, &mut output)

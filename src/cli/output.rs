@@ -59,6 +59,12 @@ impl Output {
         let _ = writeln!(std::io::stderr().lock(), "error: {}", printable(&error.to_string()));
     }
 
+    /// Prints what a person should know about a result.
+    #[expect(clippy::unused_self, reason = "all printing goes through the output")]
+    pub(super) fn remark(&mut self, remark: impl Display) {
+        let _ = writeln!(std::io::stderr().lock(), "note: {}", printable(&remark.to_string()));
+    }
+
     /// Prints a warning.
     #[expect(clippy::unused_self, reason = "all printing goes through the output")]
     pub(super) fn warning(&mut self, warning: impl Display) {

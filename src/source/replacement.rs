@@ -98,12 +98,12 @@ impl Replacement {
         }
     }
 
-    /// Adds text to the new file.
+    /// Adds text or bytes to the new file.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write(&mut self, text: &str) -> Result<(), Problem> {
-        let written = self.file().and_then(|file| file.write_all(text.as_bytes()));
+    pub fn write(&mut self, content: impl AsRef<[u8]>) -> Result<(), Problem> {
+        let written = self.file().and_then(|file| file.write_all(content.as_ref()));
         written.map_err(|error| unwritable(&self.named, &error))
     }
 

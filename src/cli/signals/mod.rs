@@ -1,6 +1,7 @@
 //! `opennck signals`: the signal catalogue, of any machine or of one, and what of it is modelled.
 
 mod aliases;
+mod files;
 
 use std::path::Path;
 
@@ -8,13 +9,15 @@ use super::list::{Format, List, near_words};
 use super::output::Output;
 use crate::control::Texts;
 use crate::controls;
-use crate::image::{Block, Memory, Names, Profile, Signal, Writer};
+use crate::image::{Address, Block, Memory, Names, Profile, Signal, Writer};
 use crate::machine::{Machine, OpenOptions};
 use crate::scenario::profile_named;
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{AxisValue, NamedValue};
 use aliases::means;
+pub(super) use files::SignalFormat;
+use files::SymbolRow;
 
 /// The columns for programs. New ones are added at the end.
 const HEADS: &[&str] = &["address", "symbol", "writer", "name", "modelled"];
@@ -28,6 +31,8 @@ struct Row {
     name: &'static str,
     /// The cells in the order of [`HEADS`].
     cells: [String; 5],
+    /// Where a signal is; a value has no address.
+    place: Option<(Address, Writer)>,
 }
 
 impl Row {
@@ -35,6 +40,22 @@ impl Row {
         let [_, symbol, ..] = &self.cells;
         symbol
     }
+
+    /// The signal for a symbol file.
+    fn symbol_row(&self) -> Option<SymbolRow<'_>> {
+        let [_, symbol, _, meaning, _] = &self.cells;
+        let (address, writer) = self.place?;
+        Some(SymbolRow { symbol, address, writer, meaning })
+    }
+}
+
+fn list(rows: Vec<Row>, format: Format) -> List {
+    let cells = |Row { cells: [address, symbol, writer, name, modelled], .. }| match format {
+        Format::Table => vec![address, symbol, writer, modelled, name],
+        Format::Json | Format::Csv => vec![address, symbol, writer, name, modelled],
+    };
+    let heads = if format == Format::Table { TABLE } else { HEADS };
+    List { heads, rows: rows.into_iter().map(cells).collect() }
 }
 
 /// The names and the memory that give addresses and symbols, and what the control models.
@@ -46,15 +67,16 @@ struct Catalogue {
     machine: Option<Machine>,
 }
 
-pub(super) fn signals(
-    filter: Option<&str>,
-    machine: Option<&Path>,
-    profile: &str,
-    format: Format,
-    output: &mut Output,
-) -> u8 {
+/// What of the catalogue is listed, how, and where.
+pub(super) struct Listed<'a> {
+    pub(super) filter: Option<&'a str>,
+    pub(super) format: SignalFormat,
+    pub(super) file: Option<&'a Path>,
+}
+
+pub(super) fn signals(machine: Option<&Path>, profile: &str, listed: &Listed<'_>, output: &mut Output) -> u8 {
     match catalogue(machine, profile) {
-        Ok(catalogue) => catalogue.print(filter, format, output),
+        Ok(catalogue) => catalogue.print(listed, output),
         Err(problem) => {
             output.error(problem);
             2
@@ -81,13 +103,14 @@ fn catalogue(machine: Option<&Path>, profile: &str) -> Result<Catalogue, Problem
 }
 
 impl Catalogue {
-    fn print(&self, filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
+    fn print(&self, listed: &Listed<'_>, output: &mut Output) -> u8 {
         let mut rows = self.signals();
-        if format == Format::Table {
+        let list_format = listed.format.list();
+        if list_format == Some(Format::Table) {
             rows.extend(self.values());
         }
         let mut found = 0;
-        if let Some(filter) = filter {
+        if let Some(filter) = listed.filter {
             let fallback = format!("omit the filter to list all signals{}", self.hint());
             let texts = || rows.iter().flat_map(|row| &row.cells).map(String::as_str);
             let cure = near_words(&filter.to_lowercase(), texts(), &fallback);
@@ -97,15 +120,24 @@ impl Catalogue {
                 output.warning(format!("no signal contains `{filter}`; {cure}"));
             }
         }
-        let rows = rows.into_iter().map(|row| {
-            let [address, symbol, writer, name, modelled] = row.cells;
-            match format {
-                Format::Table => vec![address, symbol, writer, modelled, name],
-                Format::Json | Format::Csv => vec![address, symbol, writer, name, modelled],
+        let written = match list_format {
+            Some(format) => list(rows, format).text(format).map(String::into_bytes),
+            None => {
+                let rows: Vec<_> = rows.iter().filter_map(Row::symbol_row).collect();
+                let made = files::symbol_file(listed.format, &rows, self.names.profile);
+                for note in &made.notes {
+                    output.remark(note);
+                }
+                Ok(made.bytes)
             }
-        });
-        let heads = if format == Format::Table { TABLE } else { HEADS };
-        List { heads, rows: rows.collect() }.print(format, output).max(found)
+        };
+        match written.and_then(|bytes| files::write(&bytes, listed, output)) {
+            Ok(()) => found,
+            Err(problem) => {
+                output.error(problem);
+                2
+            }
+        }
     }
 
     /// The rows that contain a text or are meant by an everyday word; without such a row, those with all words of the text.
@@ -172,7 +204,7 @@ impl Catalogue {
         };
         let symbol = self.names.symbol(location)?;
         let cells = [address.to_string(), symbol, writer.to_owned(), signal.doc.to_owned(), modelled.to_owned()];
-        Some(Row { name: signal.name, cells })
+        Some(Row { name: signal.name, cells, place: Some((address, signal.writer)) })
     }
 
     /// The values of each axis and channel, which have names and no addresses.
@@ -189,6 +221,7 @@ impl Catalogue {
                     value.meaning(interface).to_owned(),
                     "yes".to_owned(),
                 ],
+                place: None,
             })
         };
         let exists = |channel| self.machine.as_ref().is_none_or(|machine| machine.has_channel(channel));
@@ -204,6 +237,7 @@ impl Catalogue {
                     meaning.to_owned(),
                     "yes".to_owned(),
                 ],
+                place: None,
             })
         };
         axes.flat_map(of_axis).chain(channels.flat_map(of_channel)).collect()
