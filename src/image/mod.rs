@@ -47,13 +47,14 @@ mod sinumerik;
 #[doc(hidden)]
 pub mod table;
 mod value;
+mod values;
 
 #[cfg(test)]
 mod tests;
 
 pub use address::{Address, Area, Width};
 pub use bytes::{Bytes, PartBytes};
-pub use interface::{BlockTable, ByteRange, ByteSignals, Interface, Override, SwitchSignals, Tables, ValueTerms};
+pub use interface::{BlockTable, ByteRange, ByteSignals, Interface, Override, SwitchSignals, Tables};
 pub use layout::{AsBytes, Layout, View};
 pub use location::{Format, Location, Part};
 pub use memory::{Blocks, DataBlock, Memory, Parts};
@@ -73,3 +74,4 @@ pub use sinumerik::{
     nck_hmi, nck_to_nck, user_alarm,
 };
 pub use value::{is_no_code, raw_value, signal_value};
+pub use values::ValueTerms;
