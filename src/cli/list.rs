@@ -48,7 +48,9 @@ pub(super) fn near_words<'a>(wanted: &str, texts: impl Iterator<Item = &'a str>,
             known.extend(pieces.map(|parts| parts.join("_")).filter(|part| part.len() > 2));
         }
     }
-    did_you_mean(wanted, known.iter().map(String::as_str), fallback)
+    // Of a word of three letters every other one is near.
+    let known = known.iter().filter(|known| wanted.len() > 3 || known.starts_with(wanted));
+    did_you_mean(wanted, known.map(String::as_str), fallback)
 }
 
 /// Rows below a heading line. Every row has as many cells as there are headings.

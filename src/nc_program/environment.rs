@@ -111,6 +111,11 @@ pub trait Environment {
     /// Whether everything that was prepared has been executed. A block that must not run ahead waits for this.
     fn is_executed(&self) -> bool;
 
+    /// Whether the movements that go on beyond their blocks (POSA) have ended, too. Commands that need standstill wait for this.
+    fn is_at_rest(&self) -> bool {
+        self.is_executed()
+    }
+
     /// Whether blocks with this skip level, 0 to 9, are skipped.
     fn is_skipped(&self, level: u8) -> bool;
 

@@ -28,7 +28,7 @@ impl Interpreter {
                 }
             }
             Statement::If { condition, jump: None } => {
-                self.room(work)?;
+                self.begin(StructureKind::If, work)?;
                 if self.holds(condition, work, environment)? {
                     self.open(StructureKind::If, 0.0, work);
                     return Ok(next);
@@ -46,7 +46,7 @@ impl Interpreter {
             }
             Statement::EndIf => self.close(StructureKind::If, work).map(|_| next),
             Statement::While(condition) => {
-                self.room(work)?;
+                self.begin(StructureKind::While, work)?;
                 if self.holds(condition, work, environment)? {
                     self.open(StructureKind::While, 0.0, work);
                     return Ok(next);
@@ -57,7 +57,7 @@ impl Interpreter {
             // The condition is tested again in the block of WHILE.
             Statement::EndWhile => self.close(StructureKind::While, work).map(|structure| structure.line),
             Statement::RepeatLoop => {
-                self.room(work)?;
+                self.begin(StructureKind::Repeat, work)?;
                 self.open(StructureKind::Repeat, 0.0, work);
                 Ok(next)
             }
@@ -70,7 +70,7 @@ impl Interpreter {
                 Ok(structure.line.saturating_add(1))
             }
             Statement::Loop => {
-                self.room(work)?;
+                self.begin(StructureKind::Loop, work)?;
                 self.open(StructureKind::Loop, 0.0, work);
                 Ok(next)
             }
@@ -109,7 +109,7 @@ impl Interpreter {
         work: &Work<'_>,
         environment: &mut dyn Environment,
     ) -> Result<u32, Fault> {
-        self.room(work)?;
+        self.begin(StructureKind::For, work)?;
         let first = self.number(from, at, work, environment)?;
         let last = self.number(to, at, work, environment)?;
         let end = if first > last { Some(end_of(StructureKind::For, false, work.line, work)?) } else { None };
@@ -136,13 +136,13 @@ impl Interpreter {
         Ok(value.number().unwrap_or_default())
     }
 
-    /// Whether another structure fits into the level.
-    fn room(&self, work: &Work<'_>) -> Result<(), Fault> {
+    /// A structure begins: it fits into the level, and it has an end.
+    fn begin(&self, kind: StructureKind, work: &Work<'_>) -> Result<(), Fault> {
         let most = work.dialect.structures;
-        if self.levels.last().is_none_or(|level| level.structures.len() < most) {
-            return Ok(());
+        if self.levels.last().is_some_and(|level| level.structures.len() >= most) {
+            return Err(Fault::new(12641, Span::default(), format!("a program level has at most {most}")));
         }
-        Err(Fault::new(12641, Span::default(), format!("a program level has at most {most}")))
+        end_of(kind, false, work.line, work).map(drop)
     }
 
     fn open(&mut self, kind: StructureKind, last: f64, work: &Work<'_>) {

@@ -23,7 +23,7 @@ use super::syntax::{Declaration, Initial, SourceBlock, Statement, Word};
 use super::value::{Type, Value};
 use super::variables::{Content, Variable, index};
 use super::vocabulary::Command;
-use super::waiting::waits;
+use super::waiting::{Wait, wait};
 
 /// Calculation blocks in one call, so that an endless loop does not hold the channel.
 const CALCULATIONS: usize = 100; // as the documentation of `next` says
@@ -126,7 +126,12 @@ impl Interpreter {
             if is_calculation(&block.statement) && self.stops_before(&head) {
                 return Ok(Prepared::Before(origin));
             }
-            if waits(&block.statement) && !environment.is_executed() {
+            let may_run = match wait(&block.statement) {
+                Wait::No => true,
+                Wait::Executed => environment.is_executed(),
+                Wait::AtRest => environment.is_executed() && environment.is_at_rest(),
+            };
+            if !may_run {
                 return Ok(Prepared::Waits(origin));
             }
             let work = Work { program: &program, line, dialect, axes: &axes };

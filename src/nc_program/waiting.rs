@@ -3,10 +3,34 @@
 use super::expression::{Expression, is_main_run};
 use super::functions::{GFunction, g};
 use super::syntax::{Called, Direction, Initial, Jump, Statement, Word};
+use super::vocabulary::Command;
 
-/// Whether a block waits until everything before it has been executed: STOPRE, G74, PRESETON, GET, NEWCONF, GOTOS (384.0
-/// counts when the block is reached), and variables of the main run.
-pub(super) fn waits(statement: &Statement) -> bool {
+/// What a block waits for before it is executed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wait {
+    No,
+    /// Everything before it has been executed. What POSA moves goes on.
+    Executed,
+    /// Nothing moves any more, either.
+    AtRest,
+}
+
+/// What a block waits for: STOPRE, variables of the main run, and GOTOS (384.0 counts when the block is reached) for the execution of everything
+/// before it; G74, PRESETON, GET, NEWCONF and DRFOF also for standstill.
+pub(super) fn wait(statement: &Statement) -> Wait {
+    let at_rest = |word: &Word| match word {
+        Word::Function { function, .. } => stops(*function),
+        Word::Command { command, .. } => command.is_stop() && *command != Command::StopPreparation,
+        Word::Indirect { .. } | Word::Address(_) | Word::Synchronised(_) => false,
+    };
+    match statement {
+        Statement::Words(words) if words.iter().any(at_rest) => Wait::AtRest,
+        statement if waits(statement) => Wait::Executed,
+        _ => Wait::No,
+    }
+}
+
+fn waits(statement: &Statement) -> bool {
     let main_run = |one: &Expression| matches!(one, Expression::System { name, .. } if is_main_run(name));
     let reads = |expression: &Expression| expression.any(&main_run);
     let of_call = |called: &Called| match called {

@@ -322,7 +322,10 @@ pub fn profile_named(name: &str) -> Result<Profile, Problem> {
     controls::profile(name).ok_or_else(|| {
         // The edit distance misleads for a shortened name, so the profiles are listed.
         let known: Vec<&str> = controls::profiles().collect();
-        let all = format!("profiles are {}", known.join(" and "));
+        let all = match known.split_last() {
+            Some((last, others)) if !others.is_empty() => format!("profiles are {} and {last}", others.join(", ")),
+            _ => format!("the profile is {}", known.concat()),
+        };
         let shortened = |known: &&&str| known.starts_with(name);
         let cure = match known.iter().find(shortened) {
             Some(_) => all,

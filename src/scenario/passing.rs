@@ -24,6 +24,8 @@ pub(super) struct Book {
     pub(super) start: (u64, Time),
     /// Bits that were written and that no cycle has taken over yet.
     pending: Vec<(Location, u64)>,
+    /// A power on that the next cycle executes: what judges the state waits for it.
+    powers_on: bool,
     pub(super) captured_names: Vec<String>,
     captured: Vec<f64>,
     /// The rules of the session.
@@ -100,6 +102,7 @@ impl Book {
         Self {
             start: (machine.cycle(), machine.time()),
             pending: Vec::new(),
+            powers_on: false,
             captured_names: Vec::new(),
             captured: Vec::new(),
             monitor: Monitor::default(),
@@ -127,7 +130,10 @@ impl Book {
         if let Command::Write { location, value } | Command::Force { location, value } = command {
             self.pending.push((location, value));
         }
-        Ok(machine.queue(command)?)
+        let powers_on = command == Command::PowerOn;
+        machine.queue(command)?;
+        self.powers_on |= powers_on;
+        Ok(())
     }
 
     fn write_bits(&mut self, locations: &[Location], value: u64, machine: &mut Machine) -> Result<(), Failure> {
@@ -142,6 +148,13 @@ impl Book {
         machine: &mut Machine,
     ) -> Result<Next, Failure> {
         let until = |is_over: bool| if is_over { Next::Over } else { Next::Cycle };
+        let judges = matches!(
+            action,
+            Action::Wait(..) | Action::Hold(..) | Action::Expect(_) | Action::Capture(_) | Action::Image(_)
+        );
+        if judges && self.powers_on {
+            return Ok(Next::Cycle);
+        }
         match action {
             Action::Queue(commands) => {
                 commands.iter().try_for_each(|command| self.queue(command.clone(), machine))?;
@@ -220,6 +233,7 @@ impl Book {
     /// Called after a cycle, before its record is drained: stores the changes of the cycle.
     pub(super) fn note_changes(&mut self, machine: &Machine) {
         self.pending.clear();
+        self.powers_on = false;
         if let Some(before) = &mut self.before {
             before.past.end_step(machine.recorder(), machine.cycle());
         }

@@ -262,6 +262,7 @@ impl Session {
     /// The expression is false; the failure shows every signal in it.
     pub fn expect(&mut self, expression: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
+        self.take_power_on()?;
         self.book.expect(&expression, &self.machine)
     }
 
@@ -276,6 +277,7 @@ impl Session {
             let place = here.at_line(u32::try_from(index + 1).unwrap_or(0));
             parsed.push((place, self.expression(expression)?));
         }
+        self.take_power_on()?;
         self.book.expect_all(&parsed, &self.machine)
     }
 
@@ -291,6 +293,7 @@ impl Session {
             let bits = number.bits(name, location, self.machine.override_coding())?;
             bytes.push((Place::file(name), location, bits));
         }
+        self.take_power_on()?;
         self.book.expect_bits(&bytes, &self.machine)
     }
 
@@ -394,6 +397,7 @@ impl Session {
         if known.is_none() {
             names.push(name.to_owned());
         }
+        self.take_power_on()?;
         Ok(self.book.keep(index, &expression, &self.machine))
     }
 
@@ -424,6 +428,11 @@ impl Session {
     /// Queues a command for the next cycle.
     pub(super) fn queue(&mut self, command: Command) -> Result<(), Failure> {
         self.book.queue(command, &mut self.machine)
+    }
+
+    /// A power on acts in the next cycle: what judges the state waits for it.
+    fn take_power_on(&mut self) -> Result<(), Failure> {
+        self.act(&Action::Capture(Box::default()))
     }
 
     /// Executes the action of a step.

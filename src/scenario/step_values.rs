@@ -48,8 +48,13 @@ impl Reader<'_> {
                     "write \"R5\" for the first channel, \"R5[CHAN2]\" for channel 2",
                 ));
             };
-            // No channel has a parameter with this number.
-            let number = u16::try_from(number).unwrap_or(u16::MAX);
+            let Ok(number) = u16::try_from(number) else {
+                let count = self.machine.variables().r_parameters.count(channel);
+                return Err(place.problem(
+                    format!("expected R0 to R{}, found {name}", count.saturating_sub(1)),
+                    "MD28050 is the number of R parameters of a channel",
+                ));
+            };
             let command = Command::RParameter { channel, number, value: node.number("a number")? };
             self.judge(&command, &place)?;
             commands.push(command);

@@ -139,6 +139,9 @@ rules! {
     BlockBegins "block" "begins";
     BlockMoves "block" "moves the axis";
     BlockMotionEnds "block" "motion of the axis has ended";
+    Returns "P-77" "the axis returns to where the program was interrupted";
+    IsBack "P-77" "the axis is back where the program was interrupted";
+    BlockWaitsForControl "O-27" "the movement of a block waits: no position control";
     BlockNotExecutable "block" "cannot be executed";
     AuxiliaryOutput "auxiliary" "output of auxiliary functions";
     AuxiliaryAcknowledged "auxiliary" "one PLC cycle has passed";
@@ -178,6 +181,7 @@ rules! {
     OrderStarted "FC18" "the PLC starts a positioning axis";
     OrderRefused "FC18" "the positioning axis cannot be started";
     OrderMoves "FC18" "moves to the target";
+    OrderWaitsForControl "X-12" "the positioning waits: no position control yet";
     OrderTargetReached "FC18" "the setpoint has reached the target";
     OrderReached "FC18" "in position, with exact stop fine";
     OrderEnds "FC18" "the axis has come to rest before its target";
@@ -205,6 +209,7 @@ rules! {
     // Spindles.
     SpindleFunction "spindle" "the function of a program acts after its acknowledgement";
     SpindleStop "spindle" "spindle stop, or NC stop axes plus spindles";
+    SpindleWithoutEnable "S-05" "without its enable the spindle does not turn";
     SpindleReleased "spindle" "nothing holds the spindle";
     SpindleInverted "spindle" "the PLC inverts M3 and M4";
     SpindlePositioned "spindle" "a program positions the spindle";
@@ -228,6 +233,7 @@ rules! {
     SpeedWithinLimits "spindle" "the programmed speed is within the limits";
     SpeedExceeded "spindle" "the actual speed against the largest speed and its tolerance";
     SpeedReached "spindle" "the actual speed against the commanded one, with its tolerance";
+    SpindleHeld "S-10" "a spindle with a commanded speed is held, so it does not have this speed";
     SpindleDirection "spindle" "the actual direction";
     SpindleSynchronised "spindle" "the spindle has passed its zero mark";
     SpindleAcknowledgementAwaited "spindle" "the path waits for the acknowledgement of the functions of its spindles";
@@ -327,6 +333,7 @@ rules! {
     WarningLimitBeyondBase "MON-08" "further from the base than the warning limit";
     TripLimitBeyondBase "MON-08" "further from the base than the trip limit";
     TripLimitExtended "MON-09" "above the trip limit in extended monitoring";
+    SwitchedOffTripped "MON-11" "switched off with a stored difference in extended monitoring";
     DifferenceStored "MON-11" "the difference that tripped in extended monitoring is stored";
     WarningGone "MON-02" "not above the warning limit";
     TripLimitSynchronised "MON-04" "above the trip limit";

@@ -102,7 +102,9 @@ impl fmt::Display for Problem {
 /// beginning, as `pos` is the beginning of `position`.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = (name.chars().count() / 3).max(2);
+    // Two wrong letters of three leave nothing of a name.
+    let length = name.chars().count();
+    let allowed = (length / 3).max(2).min(length / 2).max(1);
     let mut misspelt: Option<(usize, &str)> = None;
     let mut shortened: Option<&str> = None;
     for candidate in known {

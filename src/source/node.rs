@@ -62,7 +62,13 @@ impl Table {
         let lines = Lines::new(text, place.line);
         let document = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| lines.line(span.start));
+            let key = error.span().and_then(|span| text.get(span)).map(str::trim).unwrap_or_default();
+            let message = match error.message() {
+                "duplicate key" => format!("the key `{key}` a second time"),
+                message => message.replace('\n', "; "),
+            };
             let cure = match error.message() {
+                "duplicate key" => "a key stands once in its table: remove one of them",
                 message if message.contains("must be quoted") => {
                     "put texts, expressions and durations in quotes: \"X.position > 5\", \"500ms\""
                 }
@@ -71,7 +77,7 @@ impl Table {
                 }
                 _ => "TOML 1.0 has strings in quotes, tables in brackets, one value per key",
             };
-            start.at_line(line).problem(format!("invalid TOML: {}", error.message().replace('\n', "; ")), cure)
+            start.at_line(line).problem(format!("invalid TOML: {message}"), cure)
         })?;
         table(document.get_ref(), start, &lines, start)
     }

@@ -113,7 +113,7 @@ fn why_not_explains_one_case_of_a_matrix_under_one_profile() {
     for (arguments, words) in [
         (&["--case", "10240 = 2"][..], "cases are 10240 = 0; 10240 = 1"),
         (&[], "`--case TEXT`"),
-        (&["--case", "10240 = 1", "--profile", "840d"], "profiles are 840d_sl and 828d"),
+        (&["--case", "10240 = 1", "--profile", "840d"], "profiles are 840d_sl, 828d and isg"),
     ] {
         let output = ask(&[&["X.axis_ready"], arguments].concat());
         assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "{arguments:?}");
@@ -281,6 +281,7 @@ fn a_catalogue_without_a_matching_row_names_the_nearest_word() {
         (&["signals", "trip_limit_exeeded"][..], "did you mean `trip_limit_exceeded`?"),
         (&["signals", "folow_up_active"][..], "did you mean `follow_up_active`?"),
         (&["machine-data", "list", "GANTRY_POS_TOL_EROR"][..], "did you mean `gantry_pos_tol_error`?"),
+        (&["rule", "FOO"][..], "omit the filter to list all rows"),
         (&["signals", "qqqqqqqq"][..], "omit the filter to list all signals"),
     ] {
         let output = opennck(arguments, &directory);

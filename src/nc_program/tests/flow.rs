@@ -260,3 +260,17 @@ fn preparation_stops_once_before_a_block_that_calculates() {
     interpreter.stop_before(crate::nc_program::BlockTarget::new("N60").unwrap());
     while !matches!(interpreter.next(&mut channel).unwrap(), Prepared::Block(_)) {}
 }
+
+/// P-123: whether the end is missing does not depend on the way that the program takes.
+#[test]
+fn structures_have_an_end() {
+    for begin in
+        ["IF TRUE", "IF FALSE", "WHILE TRUE", "WHILE FALSE", "REPEAT", "LOOP", "FOR R1=1 TO 3", "FOR R1=3 TO 1"]
+    {
+        for behind in ["M30", "GOTOF AB\nAB: M30", "IF TRUE\nENDIF\nM30"] {
+            let found = alarm(&format!("R1=1\n{begin}\n{behind}"));
+            assert_eq!((found.number, found.block.as_str()), (12640, "2"), "{begin}, {behind}");
+        }
+    }
+    assert_eq!(alarm("IF TRUE\nELSE\nM30").number, 12640);
+}

@@ -174,6 +174,9 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("machine_data = { \"nonsense\" = 1 }", 4, "nonsense", ""),
         ("machine_data = { \"34090[XF]\" = [1] }", 4, "a value of a machine datum", "one value per index"),
         ("new_conf = false", 4, "expected true, found false", "new_conf = true"),
+        ("r_parameters = { R99999 = 1 }", 4, "expected R0 to R99, found R99999", "MD28050"),
+        ("r_parameters = { R100 = 1 }", 4, "R0 to R99", "MD28050"),
+        ("set = { M0 = 1 }\nset = { M1 = 1 }", 5, "the key `set` a second time", "stands once"),
         ("power_on = 1", 4, "expected true, found the integer 1", "true or false"),
         ("plc = \"stopp\"", 4, "\"stop\", \"run\" or \"cold\"", "did you mean `stop`?"),
         ("handwheel = { number = 1 }", 4, "expected the key `pulses`", "number = 1, pulses = 50"),
@@ -519,6 +522,21 @@ fn power_on_clears_the_memory_and_keeps_stored_machine_data_and_a_rejected_value
     );
     let step = "[[step]]\nmachine_data = { \"37100[XF]\" = \"no number\" }\n";
     assert_eq!(prepared(step).err().unwrap().place.unwrap().line, 4);
+}
+
+/// What judges the state behind a power on does not see the state before it.
+#[test]
+fn a_condition_behind_a_power_on_is_judged_after_it() {
+    let before = "[[step]]\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"10ms\"\n[[step]]\npower_on = true\n[[step]]\n";
+    for judged in [
+        "expect = \"!M0.0\"",
+        "wait = \"!M0.0\"\nwithin = \"1cycles\"",
+        "hold = \"!M0.0\"\nduring = \"10ms\"",
+        "image = { \"MB0\" = 0 }",
+        "capture = { later = \"M0.0\" }\n[[step]]\nexpect = \"later == 0\"",
+    ] {
+        held(&format!("{before}{judged}\n"));
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
 //! | 10721, 10723, 16xxx, 17630 to 17900 | limits in motion, actions of the operator |
+//! | 17050, 17181 | values beyond the range of a variable that no other alarm names, tool management |
 //! | 20007, 20008, 22062, 22064 | MD34200 = 6 and 7 |
 //! | 20052, 20060, 20062 | geometry axes |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
@@ -38,7 +39,9 @@ alarms! {
     4210 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 spindle %2: declaration as rotary axis is missing";
     10721 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10723 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";
+    16755 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 stop not necessary";
     16772 [DISPLAY] ByItself "channel %1 block %2 axis %3 is a following axis, the coupling is opened";
+    16903 [DISPLAY] CancelKey "channel %1 action %2 not allowed in the present state of the channel";
     16904 [DISPLAY] CancelKey "channel %1 action %2 not allowed in the present state";
     16905 [DISPLAY] CancelKey "channel %1 action %2 not allowed";
     16906 [DISPLAY] CancelKey "channel %1 action %2 aborted by an alarm";
@@ -47,6 +50,8 @@ alarms! {
     16927 [DISPLAY] CancelKey "channel %1 action %2 not allowed while an interrupt is handled";
     16928 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not possible";
     16933 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not allowed in the present state";
+    17050 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 value too large for the variable";
+    17181 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 T number %3, D number %4 does not exist";
     17630 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 reference point approach not possible";
     17650 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 machine axis %3 not programmable";
     17810 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 not referenced";

@@ -62,6 +62,17 @@ impl State {
         self.raise(alarm, |state| state.log.now(alarm.place, cause, rule, inputs));
     }
 
+    /// As [`Self::raise_tested`], with this test as the reason also where the movement has ended in this cycle for another one.
+    pub(in crate::sinumerik) fn raise_noted(
+        &mut self,
+        alarm: RaisedAlarm,
+        cause: EventId,
+        rule: Rule,
+        inputs: [Input; 3],
+    ) {
+        self.raise(alarm, |state| state.log.note(alarm.place, rule, inputs, cause));
+    }
+
     /// Raises an alarm; the event behind it is recorded when it is new.
     fn raise(&mut self, alarm: RaisedAlarm, event: impl FnOnce(&mut Self) -> EventId) {
         let event = if self.is_new(&alarm) { event(self) } else { EventId::NONE };

@@ -309,7 +309,7 @@ impl State {
                 };
                 if beyond && axis.setpoint.is_at_rest() {
                     let inputs = limit.map_or([Input::None; 3], tested);
-                    self.raise_tested(alarm, motion, Rule::OnWorkingArea, inputs);
+                    self.raise_noted(alarm, motion, Rule::OnWorkingArea, inputs);
                 } else if self.alarms.iter().any(|(known, _)| *known == alarm) {
                     // While its setpoint moves, the movement is the cause.
                     let inputs = limit.filter(|_| !beyond).map_or([Input::None; 3], tested);
@@ -346,7 +346,7 @@ impl State {
             let motion = axis.causes.motion;
             if holds {
                 let inputs = limit.map_or([Input::None; 3], tested);
-                self.raise_tested(alarm, motion, Rule::OnSoftwareLimit, inputs);
+                self.raise_noted(alarm, motion, Rule::OnSoftwareLimit, inputs);
                 continue;
             }
             let (inputs, parent) = match limit {

@@ -133,7 +133,7 @@ impl State {
     /// Whether the next block needs axes that the channel does not have yet.
     pub(in crate::sinumerik) fn waits_for_claim(&mut self, run: &mut Run, stage: &Stage<'_>) -> bool {
         // A claim of an earlier preparation is void when the block could be prepared meanwhile.
-        let claim = run.claim.take().filter(|_| run.is_executed());
+        let claim = run.claim.take().filter(|_| run.is_at_rest());
         let waits = claim.is_some_and(|claim| {
             let by = (stage.channel, run.block_cause);
             !self.claim_axes(claim, true, by, stage.parameters)
@@ -304,6 +304,7 @@ impl Run {
     fn prepare_again(&mut self, own: &ProgramParameters, position: impl Fn(AxisNumber) -> crate::units::Position) {
         let count = self.running().count();
         let mut end = on_path(&own.axes.path, position);
+        self.end_of_ways(own, &mut end);
         for block in self.running() {
             if let Some(way) = block.way {
                 end = way.way.end();

@@ -6,7 +6,7 @@
 //!
 //! A trip in extended monitoring writes the difference into MD37135, in the next cycle. 10653 then stays, also without the difference,
 //! until a RESET at which MD37150 bit 0 = 0 and MD37135 = 0 are in effect (MON-11; both become active by this RESET). After power off and
-//! on, 10657 is raised instead if MD37150 bit 0 = 1 and MD37135 is not 0; either of bit 0 = 0 and MD37135 = 0 lets a RESET cancel it. This
+//! on, 10657 is raised instead if MD37150 bit 0 = 1 and MD37135 is not 0; either of bit 0 = 0 and MD37135 = 0 lets a RESET cancel it (C-77). This
 //! RESET also ends extended monitoring: with bit 0 = 1 again it acts only after the next referencing or synchronisation of the grouping
 //! (MON-11).
 //!
@@ -16,6 +16,7 @@
 
 use std::sync::Arc;
 
+use crate::control::Log;
 use crate::sinumerik::alarms;
 use crate::sinumerik::gantry::state::Grouping;
 use crate::sinumerik::gantry::view::{View, Want, Wants};
@@ -23,7 +24,7 @@ use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
-use crate::variables::{EventId, Parameter, Place};
+use crate::variables::{EventId, Input, Parameter, Place};
 
 impl Grouping {
     /// After power on: the axes that were switched off while the limit was exceeded.
@@ -31,19 +32,35 @@ impl Grouping {
         for axis in self.coupling.followers() {
             let gantry = &parameters.axes[axis].gantry;
             let tripped = gantry.extended_monitoring && gantry.tripped_difference != Position::ZERO;
-            self.extended.switched_off.set(axis, tripped);
+            if tripped {
+                self.extended.switched_off.push((axis, EventId::NONE));
+            }
         }
     }
 
     /// 10653 and 10657 of extended monitoring, raised in each cycle in which they apply.
-    pub(in crate::sinumerik) fn hold_trips(&mut self, view: &View<'_>, event: EventId, wants: &mut Wants) {
+    pub(in crate::sinumerik) fn hold_trips(
+        &mut self,
+        view: &View<'_>,
+        defined: EventId,
+        log: &mut Log,
+        wants: &mut Wants,
+    ) {
         let parameters = |axis: AxisNumber| &view.parameters.axes[axis];
-        for axis in self.extended.switched_off.iter() {
-            let gantry = &parameters(axis).gantry;
-            if !gantry.extended_monitoring || gantry.tripped_difference == Position::ZERO {
-                self.extended.switched_off.set(axis, false);
-                self.extended.readiness.release();
+        let before = self.extended.switched_off.len();
+        self.extended.switched_off.retain(|(axis, event)| {
+            let gantry = &parameters(*axis).gantry;
+            let (stored, extended) = (gantry.tripped_difference, gantry.extended_monitoring);
+            if extended && stored != Position::ZERO && *event == EventId::NONE {
+                let stored = Input::Datum(37135, Some(*axis), stored.user());
+                let extended = Input::Datum(37150, Some(*axis), f64::from(gantry.function_mask));
+                *event =
+                    log.note(Place::Axis(*axis), Rule::SwitchedOffTripped, [stored, extended, Input::None], defined);
             }
+            extended && stored != Position::ZERO
+        });
+        if self.extended.switched_off.len() < before {
+            self.extended.readiness.release();
         }
         for found in self.monitored() {
             let shown = [
@@ -57,8 +74,8 @@ impl Grouping {
                 let (alarm, cause) = (alarms::GANTRY_TRIP_LIMIT, found.causes.trip);
                 wants.push(Want::Raise { alarm, place, shown, cause });
             }
-            if self.extended.switched_off.contains(found.axis) {
-                wants.push(Want::Raise { alarm: alarms::GANTRY_SWITCHED_OFF, place, shown, cause: event });
+            if let Some((_, cause)) = self.extended.switched_off.iter().find(|(axis, _)| *axis == found.axis) {
+                wants.push(Want::Raise { alarm: alarms::GANTRY_SWITCHED_OFF, place, shown, cause: *cause });
             }
         }
     }

@@ -145,8 +145,8 @@ pub(in crate::sinumerik) struct Extended {
     pub readiness: Readiness,
     /// Synchronous axes that tripped in extended monitoring; their 10653 stays.
     pub tripped: AxisSet,
-    /// Synchronous axes that were switched off like this: 10657.
-    pub switched_off: AxisSet,
+    /// Synchronous axes that were switched off like this, each with the event behind its 10657.
+    pub switched_off: ArrayVec<(AxisNumber, EventId), SYNCHRONOUS_AXES>,
     /// Differences to be written into MD37135.
     pub differences: ArrayVec<(AxisNumber, Position), SYNCHRONOUS_AXES>,
 }

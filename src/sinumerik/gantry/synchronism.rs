@@ -118,7 +118,7 @@ impl Grouping {
             wants.extend(found.warning.then(|| raise(alarms::GANTRY_WARNING_LIMIT, found.causes.warning)));
             wants.extend(found.trip.then(|| raise(alarms::GANTRY_TRIP_LIMIT, found.causes.trip)));
         }
-        self.hold_trips(view, defined, wants);
+        self.hold_trips(view, defined, log, wants);
     }
 
     /// Records the event that set or reset a warning or a trip.

@@ -15,8 +15,10 @@ use crate::variables::{Input, Place};
 
 impl State {
     pub(super) fn motion_has_ended(&mut self, run: &mut Run, stage: &Stage<'_>) -> bool {
-        let Some(block) = run.queue.front() else { return true };
-        if run.returning.is_some() {
+        if run.queue.is_empty() {
+            return true;
+        }
+        if run.returning.is_some() || self.returns_first(run, stage) {
             return false;
         }
         // What START begins or refuses at the end of the cycle belongs to its block.
@@ -35,11 +37,19 @@ impl State {
             self.show_wait(run, stage);
             return false;
         }
+        let Some(block) = run.queue.front() else { return true };
         if run.positionings.iter().any(|positioning| positioning.waits && block.positions.contains(positioning)) {
             return false;
         }
-        let waited = block.actions.iter().any(|action| matches!(action, Action::WaitForPosition(_)));
-        if waited && !run.positionings.is_empty() || !self.references_are_done(run) {
+        // RELEASE gives no axis away that POSA still moves.
+        let waited = |action: &Action| match action {
+            Action::WaitForPosition(names) | Action::Release(names) => names.iter().any(|name| {
+                let axis = stage.own.axes.machine_axes.get(usize::from(name.0));
+                run.positionings.iter().any(|one| Some(&one.axis) == axis)
+            }),
+            _ => false,
+        };
+        if block.actions.iter().any(waited) || !self.references_are_done(run) {
             return false;
         }
         if !self.spindles_have_arrived(&block.actions, stage.own, stage.parameters) {

@@ -1,7 +1,6 @@
 //! What the programs of a channel read and write: R parameters, system variables, machine and setting data, other programs, skip levels.
 //!
-//! Lengths in system variables are in millimetres or degrees. A machine datum is read as it is stored, and written as by the operator: it takes
-//! effect as its class defines.
+//! A machine datum is read as it is stored, and written as by the operator: it takes effect as its class defines.
 
 use std::sync::Arc;
 
@@ -12,18 +11,17 @@ use crate::nc_program::{
     VariableRefusal,
 };
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::exchange::state::{Holder, Owners};
+use crate::sinumerik::exchange::state::Owners;
 use crate::sinumerik::machine_data::{
     Element, MachineData, Scope, TableRefusal, TableValue, TableVariable, Target, by_identifier,
 };
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
-use crate::sinumerik::parameters::spindle::REVOLUTION_PER_MINUTE;
 use crate::sinumerik::program::geometry;
 use crate::sinumerik::program::main_run::MAIN_RUN_VARIABLES;
 use crate::sinumerik::program::state::{ChannelProgram, ProgramState, Run};
 use crate::sinumerik::single_axis::state::SingleAxes;
-use crate::sinumerik::spindle::state::{Mode, Spindle};
+use crate::sinumerik::spindle::state::Spindle;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
 use crate::variables::RParameters;
 
@@ -66,6 +64,9 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub prepared_spindles: Vec<(u16, f64, i32)>,
     pub end: [f64; crate::motion::path::PATH_AXES],
     pub is_executed: bool,
+    pub is_at_rest: bool,
+    /// Lengths of system variables are in inches.
+    pub is_inch: bool,
 }
 
 impl<'a> Channel<'a> {
@@ -73,19 +74,20 @@ impl<'a> Channel<'a> {
     pub(in crate::sinumerik) fn take_run(&mut self, run: &Run) {
         self.end = run.end;
         self.prepared_spindles.clone_from(&run.prepared_spindles);
-        self.is_executed = run.is_executed();
+        (self.is_executed, self.is_at_rest) = (run.is_executed(), run.is_at_rest());
         (self.modal, self.feed) = (run.interpreter.modal(), run.interpreter.feed());
+        self.is_inch = geometry::is_inch(self.modal, self.all.is_inch);
         self.offset.clear();
         self.offset.extend_from_slice(run.interpreter.offset());
     }
 
     /// The settable and the programmable offset of an axis, with the G functions and the programmable offsets that hold.
-    fn offset(&self, axis: AxisNumber, modal: Modal, programmable: &[(AxisIndex, f64)]) -> Position {
+    pub(super) fn offset(&self, axis: AxisNumber, modal: Modal, programmable: &[(AxisIndex, f64)]) -> Position {
         let programmable = geometry::offset_of(programmable, &self.parameters.axes, axis);
         self.program.active_offset(modal, axis) + programmable
     }
 
-    fn axis(&self, value: Option<&Value>) -> Result<AxisNumber, VariableRefusal> {
+    pub(super) fn axis(&self, value: Option<&Value>) -> Result<AxisNumber, VariableRefusal> {
         match value {
             Some(Value::Axis(axis)) => {
                 self.parameters.axes.machine_axes.get(usize::from(axis.0)).copied().ok_or(VariableRefusal::Axis)
@@ -162,125 +164,6 @@ impl<'a> Channel<'a> {
     fn now(&self, target: &Target) -> Option<control::Value> {
         let written = self.written.iter().rev().find(|(other, _)| other == target);
         written.map(|(_, value)| value.clone()).or_else(|| self.stored.get(target))
-    }
-
-    /// $AA_S and other variables of a spindle: its number is the index, 0 the master spindle.
-    fn spindle_value(&self, variable: &SystemVariable<'_>) -> Result<Value, VariableRefusal> {
-        let number = variable.indices.first().and_then(Value::number).unwrap_or(0.0);
-        let named = self.parameters.spindles.iter().map(|(number, _)| u16::from(*number));
-        let known = named.chain([0]).find(|known| (f64::from(*known) - number).abs() < 1e-9);
-        let axis = known.and_then(|known| self.parameters.spindle(known)).ok_or(VariableRefusal::FirstIndex)?;
-        let spindle = self.spindles[axis].as_deref().ok_or(VariableRefusal::FirstIndex)?;
-        let known = known.filter(|known| *known != 0).unwrap_or_else(|| self.parameters.master_spindle.into());
-        let prepared = self.prepared_spindles.iter().find(|(of, ..)| *of == known);
-        let actual = self.axes[axis].velocity / REVOLUTION_PER_MINUTE;
-        Ok(match variable.name {
-            "$AA_S" => Value::Real(actual),
-            "$P_S" => Value::Real(prepared.map_or(spindle.speed, |(_, speed, _)| *speed)),
-            "$P_SDIR" => {
-                Value::Int(prepared.map_or_else(|| spindle.direction_in_words(), |(.., direction)| *direction))
-            }
-            "$AC_SDIR" => Value::Int(spindle.direction_in_words()),
-            "$AC_SMODE" => Value::Int(match spindle.mode {
-                Mode::Control => 1,
-                Mode::Positioning(_) => 2,
-                Mode::Axis => 4,
-            }),
-            _ => Value::Int(spindle.gear_stage.into()),
-        })
-    }
-
-    /// `$P_UIFR[1]`: the offsets of all axes that have one.
-    fn settable_frame(&self, variable: &SystemVariable<'_>) -> Result<Vec<(AxisIndex, f64)>, VariableRefusal> {
-        let index = settable_index(variable.indices.first())?;
-        let mut offsets = Vec::new();
-        for &axis in &self.parameters.axes.path {
-            let offset = self.program.settable_offset(index, axis);
-            let name = self.parameters.axes.machine_axes.iter().position(|other| *other == axis);
-            if let (Some(name), true) = (name.and_then(|name| u16::try_from(name).ok()), offset != Position::ZERO) {
-                offsets.push((AxisIndex(name), offset.user()));
-            }
-        }
-        Ok(offsets)
-    }
-
-    /// `$P_UIFR[1]=CTRANS(X,10)`: an axis without an offset gets 0.
-    fn set_settable_frame(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), VariableRefusal> {
-        let index = settable_index(variable.indices.first())?;
-        let Value::Frame(offsets) = value else { return Err(VariableRefusal::WrongType) };
-        let mut axes = Vec::new();
-        for (name, offset) in offsets {
-            axes.push((self.axis(Some(&Value::Axis(*name)))?, Position::from_user(*offset)));
-        }
-        for &axis in &self.parameters.axes.path {
-            let offset = axes.iter().find(|(other, _)| *other == axis).map_or(Position::ZERO, |(_, offset)| *offset);
-            self.program.set_settable_offset(index, axis, offset);
-        }
-        Ok(())
-    }
-
-    /// `$P_UIFR[1,X,TR]`: the index in G group 8 and the axis.
-    fn settable_offset(&self, variable: &SystemVariable<'_>) -> Result<(u8, AxisNumber), VariableRefusal> {
-        let [number, axis, part] = variable.indices else { return Err(VariableRefusal::FirstIndex) };
-        let index = settable_index(Some(number))?;
-        let axis = self.axis(Some(axis))?;
-        match part {
-            Value::Text(part) if part == "TR" => {}
-            // Rotation, scale and mirror image.
-            _ => return Err(VariableRefusal::NotModelled),
-        }
-        Ok((index, axis))
-    }
-    /// The variables of an axis, which is their index; of a spindle; of settable offsets. `None` for any other name.
-    fn axis_value(&self, variable: &SystemVariable<'_>) -> Option<Result<Value, VariableRefusal>> {
-        let named = self.axis(variable.indices.first());
-        let of = |value: &dyn Fn(AxisNumber) -> Value| Some(named.map(value));
-        let length = |position: Position| Value::Real(position.user());
-        let compensation = |increments: f64| Value::Real(increments / Position::PER_USER_UNIT);
-        let axes = self.axes;
-        match variable.name {
-            "$AA_IM" => of(&|axis| length(axes[axis].setpoint.position + axes[axis].overlay.position())),
-            // Without a transformation the basic coordinates are those of the machine.
-            "$AA_IB" => of(&|axis| length(axes[axis].setpoint.position)),
-            "$AA_IW" => of(&|axis| {
-                let offset = self.offset(axis, self.program.modal, &self.program.programmable);
-                length(axes[axis].setpoint.position - offset)
-            }),
-            "$VA_IM" => of(&|axis| {
-                let axis = &axes[axis];
-                length(axis.actual + axis.overlay.position() + axis.compensation.setpoint)
-            }),
-            "$AC_DRF" => of(&|axis| length(axes[axis].overlay.target)),
-            "$VA_ENC1_COMP_VAL" => of(&|axis| length(axes[axis].compensation.encoder[0])),
-            "$VA_ENC2_COMP_VAL" => of(&|axis| length(axes[axis].compensation.encoder[1])),
-            "$VA_CEC_COMP_VAL" => of(&|axis| compensation(axes[axis].compensation.sag)),
-            "$VA_TEMP_COMP_VAL" => of(&|axis| compensation(axes[axis].compensation.temperature)),
-            "$P_EP" => Some(named.and_then(|axis| self.prepared_end(axis))),
-            "$AA_TYP" => of(&|axis| Value::Int(self.owners.axis_type(axis, self.channel, self.coupled.contains(axis)))),
-            "$AA_AXCHANGE_TYP" => of(&|axis| {
-                let (data, moves) = (self.all.axes[axis].plc_axis, self.single.moving.contains(axis));
-                Value::Int(self.owners.exchange_type((axis, data), self.channel, moves))
-            }),
-            "$AA_SNGLAX_STAT" => of(&|axis| {
-                let is_single = matches!(self.owners.of(axis).holder, Holder::Plc | Holder::Command);
-                Value::Int(self.single.status(axis, is_single))
-            }),
-            "$AA_REF" => of(&|axis| Value::Int(i32::from(axes[axis].is_referenced()))),
-            "$AA_S" | "$P_S" | "$P_SDIR" | "$AC_SDIR" | "$AC_SMODE" | "$AC_SGEAR" => Some(self.spindle_value(variable)),
-            "$P_UIFR" if variable.indices.len() == 1 => Some(self.settable_frame(variable).map(Value::Frame)),
-            "$P_UIFR" => {
-                let of_axis = self.settable_offset(variable);
-                Some(of_axis.map(|(index, axis)| length(self.program.settable_offset(index, axis))))
-            }
-            _ => None,
-        }
-    }
-
-    /// $P_EP: where the prepared blocks end, without offsets.
-    fn prepared_end(&self, axis: AxisNumber) -> Result<Value, VariableRefusal> {
-        let place = self.parameters.axes.place(axis).ok_or(VariableRefusal::Axis)?;
-        let offset = self.offset(axis, self.modal, &self.offset);
-        Ok(Value::Real((self.end[place] - offset.increments() as f64) / Position::PER_USER_UNIT))
     }
 
     /// The variables of the program and of the channel. `None` for any other name.
@@ -384,7 +267,7 @@ impl Environment for Channel<'_> {
         if variable.name == "$P_UIFR" {
             let (index, axis) = self.settable_offset(variable)?;
             let value = value.number().ok_or(VariableRefusal::WrongType)?;
-            self.program.set_settable_offset(index, axis, Position::from_user(value));
+            self.program.set_settable_offset(index, axis, Position::from_user(value * self.unit(axis)));
             return Ok(());
         }
         if let Some(element) = self.table(variable) {
@@ -443,6 +326,10 @@ impl Environment for Channel<'_> {
         self.is_executed
     }
 
+    fn is_at_rest(&self) -> bool {
+        self.is_at_rest
+    }
+
     fn is_skipped(&self, level: u8) -> bool {
         self.skips >> level & 1 == 1
     }
@@ -465,19 +352,13 @@ impl Environment for Channel<'_> {
     }
 }
 
-/// The index in the group of settable offsets: $P_UIFR[1] is G54, index 2 of its group; [5] is G505, index 6.
-fn settable_index(number: Option<&Value>) -> Result<u8, VariableRefusal> {
-    let number = whole_index(number, 100).filter(|number| *number > 0);
-    number.map(|number| number + 1).ok_or(VariableRefusal::FirstIndex)
-}
-
 /// The index of `$AC_TIMER` and `$AC_MARKER`.
 fn main_run_index(variable: &SystemVariable<'_>) -> Result<u8, VariableRefusal> {
     whole_index(variable.indices.first(), MAIN_RUN_VARIABLES).ok_or(VariableRefusal::FirstIndex)
 }
 
 /// A whole number from 0 to below a limit.
-fn whole_index(value: Option<&Value>, limit: u8) -> Option<u8> {
+pub(super) fn whole_index(value: Option<&Value>, limit: u8) -> Option<u8> {
     let number = value.and_then(Value::number)?;
     let is_whole = number.fract() == 0.0 && (0.0..f64::from(limit)).contains(&number);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "used only if it fits")]

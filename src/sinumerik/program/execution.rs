@@ -20,6 +20,7 @@ use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::programs::{ChangeTime, OutputTime};
 use crate::sinumerik::program::control::at_stop;
 use crate::sinumerik::program::environment::Channel;
+use crate::sinumerik::program::geometry;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::preparation::Preparing;
 use crate::sinumerik::program::state::{BlockAlarm, Phase, Preparation, ProgramState, Run, block_name, on_path};
@@ -173,24 +174,6 @@ impl State {
     pub(super) fn stop_program(&mut self, channel: ChannelNumber, event: EventId) {
         let program = &mut self.programs[channel];
         (program.state, program.cause) = (ProgramState::Stopped, event);
-    }
-
-    /// DB21.DBX6.2: the path brakes, and the rest of its block is dropped.
-    fn delete_distance_to_go_of_path(&mut self, run: &mut Run, stage: &Stage<'_>) {
-        let delete = stage.to_nck.channels[stage.channel].delete_distance_to_go();
-        let was = std::mem::replace(&mut run.delete_was, delete);
-        if delete && !was && !run.path.is_empty() && run.returning.is_none() {
-            run.deleting = true;
-        }
-        if run.deleting && run.path.velocity() <= 0.0 {
-            run.deleting = false;
-            run.path.clear();
-            run.on_path = 0;
-            run.reorganise(run.path.position());
-            if let Some(block) = run.queue.front_mut() {
-                block.way = None;
-            }
-        }
     }
 
     /// Whether something holds the change to the next block: read-in disable, also by RDISABLE, single block, NC stop at the block limit.
@@ -366,6 +349,8 @@ impl State {
             prepared_spindles: Vec::new(),
             end: run.end,
             is_executed: run.is_executed(),
+            is_at_rest: run.is_at_rest(),
+            is_inch: geometry::is_inch(run.interpreter.modal(), stage.parameters.is_inch),
         };
         run.prepare(&preparing, &mut environment);
     }
@@ -384,7 +369,8 @@ impl State {
                 Preparation::Reads | Preparation::Waits => BlockProgress::Waits,
                 Preparation::Failed { alarm, .. } => {
                     let alarm = *alarm;
-                    if run.positionings.is_empty() {
+                    // NC start on a block that is as bad as before is seen for a cycle: 35.0 = 1, and its alarm is gone.
+                    if run.positionings.is_empty() && run.read_again_cycle != Some(self.log.cycle) {
                         self.raise_block_alarm(alarm, run, stage);
                     }
                     BlockProgress::Waits

@@ -1,7 +1,7 @@
 //! Geometry of a block: units, offsets, targets in machine coordinates, circles.
 
 use crate::motion::path::{Circle, PATH_AXES, PerPathAxis, Turn, Way};
-use crate::nc_program::{self, AxisIndex, Block, Dimension, INCH, g, groups};
+use crate::nc_program::{self, AxisIndex, Block, Dimension, INCH, Modal, g, groups};
 use crate::sinumerik::parameters::programs::{ProgramAxes, ProgramParameters};
 use crate::units::{AxisNumber, Position};
 
@@ -23,10 +23,14 @@ pub(in crate::sinumerik) fn is_exact_stop(block: &Block) -> bool {
     block.once.contains(&g::G9) || block.modal.is(g::G60)
 }
 
-/// The unit of feeds in millimetres. G70 and G71 leave feeds in the basic system, G700 and G710 do not.
+/// Whether feeds and system variables are in inches. G70 and G71 leave them in the basic system, G700 and G710 do not.
+pub(in crate::sinumerik) fn is_inch(modal: Modal, basic_is_inch: bool) -> bool {
+    modal.is(g::G700) || basic_is_inch && !modal.is(g::G710)
+}
+
+/// The unit of feeds in millimetres.
 pub(in crate::sinumerik) fn feed_unit(block: &Block, basic_is_inch: bool) -> f64 {
-    let inch = block.modal.is(g::G700) || basic_is_inch && !block.modal.is(g::G710);
-    if inch { INCH } else { 1.0 }
+    if is_inch(block.modal, basic_is_inch) { INCH } else { 1.0 }
 }
 
 /// The path feed in increments per second.
@@ -105,6 +109,10 @@ pub(in crate::sinumerik) fn arc(
     let to = plane.map(|place| end[place]);
     let has_centre = programmed.centre.iter().any(Option::is_some);
     let chord = ((to[0] - from[0]) * (to[0] - from[0]) + (to[1] - from[1]) * (to[1] - from[1])).sqrt();
+    if has_centre && letters.iter().all(|letter| programmed.centre[*letter].is_none()) {
+        // The centre is given beside the plane only.
+        return Err(BadCircle::EndPoint);
+    }
     let centre = if has_centre {
         std::array::from_fn(|index| {
             let (place, letter) = (plane[index], letters[index]);

@@ -13,6 +13,7 @@
 //! | `start.rs` | NC start and its refusals, stop, RESET, end, change of the mode: the program states 35.0 to 35.4 |
 //! | `main_run.rs` | timers and markers of the main run |
 //! | `environment.rs` | what the language reads and writes: R parameters, system variables, machine data, programs |
+//! | `axis_variables.rs` | system variables of axes and spindles, settable offsets |
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
 //! | `targets.rs` | targets of axis words: offsets, incremental dimensions, limits |
 //! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
@@ -24,8 +25,10 @@
 //! | `search_state.rs` | how far a search is, and what it has collected |
 //! | `synchronised.rs` | synchronised actions |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
-//! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
+//! | `path.rs` | the path in a cycle: overrides, holds, where the axes are |
+//! | `interruption.rs` | the interruption point, and the return to it |
 //! | `limits_ahead.rs` | limits that the path would pass, by what came after the preparation of its blocks |
+//! | `deletion.rs` | delete distance-to-go of the path and of axes on their own ways |
 //! | `positioning.rs`, `own_ways.rs` | axes on their own ways: POS and POSA, rapid traverse with MD20730 = 0 |
 //! | `referencing.rs` | G74 |
 //! | `refused.rs` | couplings and spindles that the channel does not have |
@@ -44,14 +47,16 @@
 
 pub(super) mod actions;
 pub(super) mod auxiliary;
-mod axial_deletion;
+mod axis_variables;
 pub(super) mod control;
 pub(super) mod coordination;
+mod deletion;
 pub(super) mod ending;
 pub(super) mod environment;
 pub(super) mod executable;
 pub(super) mod execution;
 pub(super) mod geometry;
+mod interruption;
 pub(super) mod limits_ahead;
 pub(super) mod main_run;
 pub(super) mod outputs;

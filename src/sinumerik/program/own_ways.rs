@@ -8,7 +8,7 @@ use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::executable::Executable;
 use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
 use crate::sinumerik::program::preparation::{Preparing, block_parameter};
-use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name};
+use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name, on_path};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{Parameter, short_text};
 
@@ -56,7 +56,15 @@ impl Preparing<'_> {
             let target = Position::new(end[place].round() as i64);
             let velocity = velocity.min(self.parameters.axes[axis].maximum_velocity);
             run.programmed_on_path.set(axis, false);
-            done.positions.push(AxisPositioning { axis, target, velocity, waits: *waits, is_rapid: false, handwheel });
+            done.positions.push(AxisPositioning {
+                axis,
+                target,
+                velocity,
+                waits: *waits,
+                is_rapid: false,
+                handwheel,
+                block: block_name(&block.origin.name),
+            });
         }
         Ok(())
     }
@@ -76,6 +84,7 @@ impl Preparing<'_> {
                     waits: true,
                     is_rapid: true,
                     handwheel: Handwheel::None,
+                    block: block_name(&done.origin.name),
                 });
             }
         }
@@ -83,6 +92,17 @@ impl Preparing<'_> {
 }
 
 impl Run {
+    /// Everything has been executed: what is prepared now begins where the axes are, because something else may have moved them. From JOG they
+    /// return to where the program has left them. What POSA still moves begins at its target.
+    pub(super) fn begin_where_axes_are(&mut self, preparing: &Preparing<'_>) {
+        let mut end = on_path(&preparing.own.axes.path, |axis| {
+            let left = self.left.iter().find(|(of, _)| *of == axis);
+            left.map_or(preparing.axes[axis].setpoint.position, |(_, position)| *position)
+        });
+        self.end_of_ways(preparing.own, &mut end);
+        self.end = end;
+    }
+
     /// The next block is not executed: the program stands before it with an alarm.
     pub(super) fn refuse_next(&mut self, alarm: BlockAlarm) {
         let Some(next) = self.queue.pop_front() else { return };

@@ -1,23 +1,17 @@
-//! The path in a cycle: what holds it, where its axes are, the return to it, and the axes that are positioned beside it.
-//!
-//! An axis that is not where the path is (it was moved in JOG, or braked alone because it lost its enables) first comes back: all axes go on a
-//! straight line to where the path was left (REPOS).
+//! The path in a cycle: what holds it, where its axes are, and the axes that are positioned beside it.
 
 use crate::image::{Signal, ToNck, axis_to_nck, channel_to_nck};
-use crate::motion::path::{Feed, Overrides, Path, PathBlock, PerPathAxis, Way};
+use crate::motion::path::{Feed, Overrides, Path, PerPathAxis};
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, channel_number};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::positioning::{AxisPositioning, Handwheel};
-use crate::sinumerik::program::state::{Change, Led, ProgramState, Run, on_path};
+use crate::sinumerik::program::state::{Change, Led, ProgramState, Run, block_name};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{Input, Place};
-
-/// An axis that is farther from the path than this is not on it, in increments.
-const ON_PATH: f64 = 1.5;
 
 /// What the stage reads in a cycle.
 #[derive(Clone, Copy)]
@@ -53,7 +47,8 @@ impl State {
             None => self.holder(run, stage),
         };
         run.handwheel_share = self.handwheel_share(run, held, stage);
-        let ended = self.step_path(run, held, stage);
+        // In JOG keys and handwheels move the axes of an interrupted program, whose path stands.
+        let ended = if state == ProgramState::Interrupted { 0 } else { self.step_path(run, held, stage) };
         self.step_positionings(run, held, stage);
         ended
     }
@@ -82,7 +77,7 @@ impl State {
             if !moves(place) {
                 if let Some(off) = unit.members().find(|member| !self.axes[*member].enabling.is_on()) {
                     let control = crate::image::axis_from_nck::position_controller_active;
-                    return Held::By(Rule::MotionBlocked, axis_signal(off, control, false));
+                    return Held::By(Rule::BlockWaitsForControl, axis_signal(off, control, false));
                 }
                 continue;
             }
@@ -91,7 +86,7 @@ impl State {
             }
             if let Some(off) = unit.members().find(|member| !self.axes[*member].enabling.is_on()) {
                 let control = crate::image::axis_from_nck::position_controller_active;
-                return Held::By(Rule::MotionBlocked, axis_signal(off, control, false));
+                return Held::By(Rule::BlockWaitsForControl, axis_signal(off, control, false));
             }
             let sign = if direction[place] > 0.0 { 1 } else { -1 };
             if let Some(input) = self.limits_program(&unit, sign) {
@@ -207,64 +202,12 @@ impl State {
         self.lead(run, (before, now), stage);
         if returns {
             if run.returning.as_ref().is_some_and(Path::is_empty) {
-                run.returning = None;
+                (run.returning, run.has_returned) = (None, !run.approaches);
             }
             return 0;
         }
+        run.has_returned &= !moves;
         moved.ended
-    }
-
-    /// Whether an axis of the path is not where the path is. While no block is on the path, its axes are where they are.
-    fn is_off(&self, run: &Run, stage: &Stage<'_>) -> bool {
-        if run.path.is_empty() {
-            return false;
-        }
-        let position = run.path.position();
-        stage.own.axes.path.iter().enumerate().any(|(place, &axis)| {
-            let is_positioned = run.commanded.contains(axis) || run.positionings.iter().any(|one| one.axis == axis);
-            let away = (self.axes[axis].setpoint.position.increments() as f64 - position[place]).abs();
-            !is_positioned && away > ON_PATH && self.owners.is_program_axis(axis, stage.channel)
-        })
-    }
-
-    /// The program has stopped. Without a block on the path, its axes are where the last one ended; axes that have not returned from an earlier
-    /// interruption still have to.
-    pub(super) fn note_interruption_point(&self, run: &mut Run, stage: &Stage<'_>) {
-        if !run.path.is_empty() {
-            return;
-        }
-        for &axis in &stage.own.axes.path {
-            let is_known = run.left.iter().any(|(of, _)| *of == axis);
-            if !is_known && !run.leaves_alone(axis) && self.owners.is_program_axis(axis, stage.channel) {
-                run.left.push((axis, self.axes[axis].setpoint.position));
-            }
-        }
-    }
-
-    /// A straight line from where the axes stand to the path; `None` while one of them still moves.
-    fn way_back(&self, run: &Run, stage: &Stage<'_>) -> Option<Path> {
-        let axes = &stage.own.axes;
-        let mut own = axes.path.iter().filter(|axis| self.owners.is_program_axis(**axis, stage.channel));
-        if !own.all(|axis| self.axes[*axis].setpoint.is_at_rest()) {
-            return None;
-        }
-        let from = on_path(&axes.path, |axis| self.axes[axis].setpoint.position);
-        let mut way = Path::new(from, run.limits);
-        let programmed = run.queue.front().and_then(|block| block.way).map_or(Feed::Rapid, |block| block.feed);
-        let feed = match stage.own.approach_feed {
-            feed if feed > 0.0 => Feed::Programmed(feed * Position::PER_USER_UNIT / 60.0),
-            _ => programmed,
-        };
-        let mut to = run.path.position();
-        for (place, axis) in axes.path.iter().enumerate() {
-            if run.commanded.contains(*axis) {
-                to[place] = from[place];
-            }
-        }
-        let line = Way::line(from, to, axes.counted);
-        let block = PathBlock { number: 0, way: line, feed, exact_stop: false };
-        way.append(block, stage.parameters.cycle.seconds()).ok()?;
-        Some(way)
     }
 
     /// Leads the axes that move, and brings those to rest that moved in the last cycle.
@@ -318,8 +261,7 @@ impl State {
 
     /// The travel of an axis by a program, with the event behind a change.
     fn show_travel(&mut self, axis: AxisNumber, travel: Travel, held: Held, run: &Run, stage: &Stage<'_>) {
-        let before = self.axes[axis].travel;
-        if before == travel {
+        if self.axes[axis].travel == travel {
             return;
         }
         let place = Place::Axis(axis);
@@ -334,9 +276,18 @@ impl State {
                 self.log.now(place, run.block_cause, rule, [input, Input::None, Input::None])
             }
             _ => {
-                let name = run.queue.front().map(|block| block.origin.name.as_str()).unwrap_or_default();
-                let input = Input::Block(super::state::block_name(name));
-                let rule = if travel == Travel::None { Rule::BlockMotionEnds } else { Rule::BlockMoves };
+                let name = || run.queue.front().map(|block| block.origin.name.as_str()).unwrap_or_default();
+                let of_way = run.positionings.iter().find(|one| one.axis == axis).map(|one| one.block);
+                let block = of_way.filter(|block| !block.is_empty()).unwrap_or_else(|| block_name(name()));
+                let input = Input::Block(block);
+                let on_path = of_way.is_none();
+                let returns = on_path && run.returning.is_some() && !run.approaches;
+                let rule = match travel {
+                    Travel::None if returns || on_path && run.has_returned => Rule::IsBack,
+                    Travel::None => Rule::BlockMotionEnds,
+                    _ if returns => Rule::Returns,
+                    _ => Rule::BlockMoves,
+                };
                 self.log.now(place, run.block_cause, rule, [input, Input::None, Input::None])
             }
         };
@@ -364,9 +315,9 @@ impl State {
                 continue;
             }
             if arrived && in_position {
+                self.show_travel(axis, Travel::None, Held::No, run, stage);
                 run.positionings.remove(index);
                 run.commanded_arrived |= run.commanded.contains(axis);
-                self.show_travel(axis, Travel::None, Held::No, run, stage);
                 continue;
             }
             index += 1;
@@ -384,7 +335,7 @@ impl State {
                 Held::By(Rule::HeldByFeedStop, axis_signal(stopper, axis_to_nck::feed_stop, true))
             } else if !unit.as_ref().is_some_and(on) {
                 let control = crate::image::axis_from_nck::position_controller_active;
-                Held::By(Rule::MotionBlocked, axis_signal(axis, control, false))
+                Held::By(Rule::BlockWaitsForControl, axis_signal(axis, control, false))
             } else if let Some(input) = unit.as_ref().and_then(|unit| self.limits_program(unit, way)) {
                 Held::By(Rule::HardwareLimitSwitch, input)
             } else if factor <= 0.0 && is_rapid {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::units::{AxisNumber, Position};
+use crate::variables::BlockName;
 
 /// The movement of a positioning axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +19,8 @@ pub(in crate::sinumerik) struct AxisPositioning {
     pub is_rapid: bool,
     /// FDA.
     pub handwheel: Handwheel,
+    /// The block that begins it; empty for one of a synchronised action.
+    pub block: BlockName,
 }
 
 /// What a handwheel does in the movement of a positioning axis.

@@ -14,7 +14,7 @@ use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::executable::{Criterion, Executable, ReadBlock, StateBehind};
 use crate::sinumerik::program::geometry::{self, BadCircle};
-use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name, on_path};
+use crate::sinumerik::program::state::{BlockAlarm, Preparation, Run, block_name};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, short_text};
 
@@ -57,11 +57,7 @@ impl Run {
                 return;
             }
             if self.is_executed() && !self.search.as_ref().is_some_and(|search| search.calculates()) {
-                // Something else may have moved the axes. From JOG they return to where the program has left them.
-                self.end = on_path(&preparing.own.axes.path, |axis| {
-                    let left = self.left.iter().find(|(of, _)| *of == axis);
-                    left.map_or(preparing.axes[axis].setpoint.position, |(_, position)| *position)
-                });
+                self.begin_where_axes_are(preparing);
             }
             self.holds_preparation &= !self.is_executed();
             if self.holds_preparation {
@@ -118,7 +114,11 @@ impl Run {
                 }
                 // A search that is over.
                 Ok(Prepared::Before(_)) => {}
-                Ok(Prepared::Waits(_)) => self.preparation = Preparation::Waits,
+                Ok(Prepared::Waits(_)) => {
+                    self.preparation = Preparation::Waits;
+                    // It waits for POSA.
+                    self.pauses |= self.is_executed();
+                }
                 Ok(Prepared::Ended) => self.preparation = Preparation::Ended,
                 Err(alarm) => self.fail(&alarm),
             }

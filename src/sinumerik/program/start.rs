@@ -215,6 +215,7 @@ impl State {
             path: Path::new(position, limits),
             limits,
             returning: None,
+            has_returned: false,
             end: position,
             left: Vec::new(),
             numbers: 0,
@@ -228,6 +229,7 @@ impl State {
             block_cause: event,
             block_cycle: self.log.cycle,
             continued_cycle: self.log.cycle,
+            read_again_cycle: None,
             stopping: None,
             resetting: None,
             delete_was: false,
@@ -276,7 +278,8 @@ impl State {
         (program.programmed_stop, program.associated_stop) = (false, false);
         let cycle = self.log.cycle;
         if let Some(run) = &mut program.run {
-            (run.stopping, run.reads_again, run.continued_cycle) = (None, true, cycle);
+            (run.stopping, run.reads_again) = (None, true);
+            (run.continued_cycle, run.read_again_cycle) = (cycle, Some(cycle));
             run.referencing_started = AxisSet::NONE;
         }
     }

@@ -298,6 +298,8 @@ pub(in crate::sinumerik) struct Run {
     pub limits: PathLimits,
     /// The return to the path.
     pub returning: Option<Path>,
+    /// It is over, and the path has not moved since.
+    pub has_returned: bool,
     /// Where the prepared blocks end, in machine coordinates.
     pub end: PerPathAxis,
     /// Where its axes were when it stopped between two blocks: the next motion begins there, so that they return first.
@@ -322,6 +324,8 @@ pub(in crate::sinumerik) struct Run {
     pub block_cycle: u64,
     /// The cycle of the last NC start.
     pub continued_cycle: u64,
+    /// The cycle in which NC start has gone on with the program, if it was ever stopped.
+    pub read_again_cycle: Option<u64>,
     /// The event that stops the program; it is stopped when its axes are at rest.
     pub stopping: Option<EventId>,
     /// The event of a RESET that ends the program when its axes are at rest.
@@ -429,9 +433,23 @@ impl Run {
         is_positioned || self.referencing.contains(axis) || self.commanded.contains(axis)
     }
 
-    /// Whether everything that was prepared has been executed.
+    /// Whether everything that was prepared has been executed. What POSA moves goes on beyond its block.
     pub(in crate::sinumerik) fn is_executed(&self) -> bool {
-        self.queue.is_empty() && self.phase == Phase::Between && self.path.is_empty() && self.positionings.is_empty()
+        self.queue.is_empty() && self.phase == Phase::Between && self.path.is_empty()
+    }
+
+    /// Whether everything has been executed, and nothing moves any more.
+    pub(in crate::sinumerik) fn is_at_rest(&self) -> bool {
+        self.is_executed() && self.positionings.is_empty()
+    }
+
+    /// Axes on their own ways end at their targets, wherever they are now.
+    pub(in crate::sinumerik) fn end_of_ways(&self, own: &ProgramParameters, end: &mut PerPathAxis) {
+        for one in &self.positionings {
+            if let Some(place) = own.axes.place(one.axis) {
+                end[place] = one.target.increments() as f64;
+            }
+        }
     }
 }
 

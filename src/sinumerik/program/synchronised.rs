@@ -4,7 +4,7 @@
 //! them before the path moves, in the order in which they began. A POS moves its axis beside the path, as POSA (P-69).
 
 use crate::nc_program::{
-    AuxiliaryFunction, AuxiliaryKind, Dimension, Environment, Frequency, MainRunAction, SynchronisedAction,
+    AuxiliaryFunction, AuxiliaryKind, Dimension, Environment, Frequency, INCH, MainRunAction, SynchronisedAction,
     SystemVariable, Value,
 };
 use crate::sinumerik::alarms::programs as alarms;
@@ -22,7 +22,7 @@ use crate::sinumerik::single_axis::orders::limit_behind;
 use crate::sinumerik::single_axis::state::{Order, OrderedBy};
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, Input, Parameter, Place, Quantity, short_text};
+use crate::variables::{AlarmNumber, BlockName, Input, Parameter, Place, Quantity, short_text};
 
 /// What an action does in this cycle.
 enum Effect {
@@ -98,6 +98,8 @@ impl State {
             r_written: Vec::new(),
             end: run.end,
             is_executed: true,
+            is_at_rest: true,
+            is_inch: stage.parameters.is_inch,
         };
         let mut effects = Vec::new();
         for one in &mut actions {
@@ -179,7 +181,11 @@ impl State {
             self.raise_of_action(alarms::COMMAND_AXIS, [Parameter::Axis(axis), reason, Parameter::None], run, stage);
             return;
         }
-        let programmed = feed.or_else(|| run.axis_feeds.iter().find(|(of, _)| *of == axis).map(|(_, feed)| *feed));
+        // The basic system, whatever the blocks of the program say.
+        let unit = if stage.parameters.is_inch && !parameters.rotary { INCH } else { 1.0 };
+        let programmed = feed
+            .map(|feed| feed * unit)
+            .or_else(|| run.axis_feeds.iter().find(|(of, _)| *of == axis).map(|(_, feed)| *feed));
         let velocity = programmed
             .map_or(parameters.positioning_velocity, |feed| parameters.velocity_of_feed(feed))
             .min(parameters.maximum_velocity);
@@ -189,7 +195,7 @@ impl State {
             return;
         }
         let from = self.axes[axis].setpoint.position.increments() as f64;
-        let wanted = Position::from_user(value).increments() as f64;
+        let wanted = Position::from_user(value * unit).increments() as f64;
         let target = geometry::target(wanted, dimension, from, 0.0, parameters.modulo);
         #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
         let target = Position::new(target.round() as i64);
@@ -214,6 +220,7 @@ impl State {
             waits: false,
             is_rapid: false,
             handwheel: Handwheel::None,
+            block: BlockName::new(),
         });
         run.commanded.set(axis, true);
     }

@@ -18,7 +18,7 @@ impl ChannelProgram {
             return;
         };
         if let (Preparation::Failed { alarm, place: (program, line), .. }, true) =
-            (&run.preparation, run.is_executed() || run.stands_before_moving_axis())
+            (&run.preparation, run.is_at_rest() || run.stands_before_moving_axis())
         {
             values.block = block_number(&alarm.block, *line);
             values.program = program_name(program);

@@ -52,6 +52,9 @@ impl State {
             if spindle.mode != Mode::Control && self.log.is_of_this_cycle(spindle.mode_cause) {
                 return mode();
             }
+            if spindle.commanded == 0.0 && spindle.holder != Input::None {
+                return Why::Tested(Rule::SpindleHeld, [spindle.holder, Input::None, Input::None], movement());
+            }
             Why::Tested(Rule::SpeedReached, [measured(), tolerance(), Input::None], movement())
         });
         let clockwise = axis.velocity >= own.standstill_velocity;

@@ -23,6 +23,7 @@ impl State {
     pub(super) fn watch_independence(&mut self, axis: AxisNumber, signals: &AxisToNck) {
         let before = self.single.axes[axis].independence;
         let asks = signals.plc_controls_axis();
+        self.single.axes[axis].independence.waits = asks && !before.taken;
         if !asks && !before.taken {
             return;
         }
@@ -30,7 +31,9 @@ impl State {
         if !before.taken {
             if self.is_free_of_programs(&unit) {
                 let pressed = axis_signal(axis, axis_to_nck::plc_controls_axis, true);
-                self.note_independence(axis, Rule::PlcControls, pressed, |one| one.taken = true);
+                self.note_independence(axis, Rule::PlcControls, pressed, |one| {
+                    (one.taken, one.waits) = (true, false);
+                });
             }
             return;
         }

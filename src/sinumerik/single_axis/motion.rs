@@ -216,7 +216,10 @@ impl State {
         }
         if !is_on {
             let off = unit.members().find(|member| !self.axes[*member].enabling.is_on()).unwrap_or(axis);
-            return Some((Rule::MotionBlocked, axis_signal(off, axis_from_nck::position_controller_active, false)));
+            return Some((
+                Rule::OrderWaitsForControl,
+                axis_signal(off, axis_from_nck::position_controller_active, false),
+            ));
         }
         (factor <= 0.0).then(|| (Rule::HeldByOverride, self.axes[axis].override_input(axis)))
     }

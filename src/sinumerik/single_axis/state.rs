@@ -136,6 +136,8 @@ impl Outcome {
 pub(in crate::sinumerik) struct Independence {
     /// 63.1.
     pub taken: bool,
+    /// 28.7 waits for the end of a block that uses the axis.
+    pub waits: bool,
     /// 63.2.
     pub stopped: bool,
     /// 63.0.
@@ -178,7 +180,8 @@ pub(in crate::sinumerik) struct SingleAxes {
     pub axes: PerAxis<SingleAxis>,
     /// Those with an order.
     pub moving: AxisSet,
-    /// Those with an order, a refusal that is shown, or under the control of the PLC: the stage looks at them in every cycle.
+    /// Those with an order, a refusal that is shown, or under the control of the PLC, also one that it waits for: the stage looks at them in
+    /// every cycle.
     pub watched: AxisSet,
     /// Those with a handwheel override in this cycle.
     pub overridden: AxisSet,
@@ -196,8 +199,8 @@ impl SingleAxes {
     /// Updates whether the stage looks at an axis in every cycle.
     pub(in crate::sinumerik) fn note_watched(&mut self, axis: AxisNumber) {
         let one = &self.axes[axis];
-        self.watched
-            .set(axis, one.order.is_some() || one.spindle.is_some() || one.limit.is_some() || one.independence.taken);
+        let by_plc = one.independence.taken || one.independence.waits;
+        self.watched.set(axis, one.order.is_some() || one.spindle.is_some() || one.limit.is_some() || by_plc);
     }
 
     /// `$AA_SNGLAX_STAT`.

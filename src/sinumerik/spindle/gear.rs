@@ -167,6 +167,7 @@ impl State {
         }
         if let Some(spindle) = self.spindles[number].as_deref_mut() {
             spindle.change = Some(GearChange { oscillation, ..change });
+            spindle.holder = Input::None;
             (spindle.oscillation_cause, spindle.commanded, spindle.is_new) = (cause, velocity, false);
             if (spindle.limited, spindle.raised) != (false, false) {
                 (spindle.limited, spindle.raised, spindle.limit_cause) = (false, false, spindle.gear_cause);

@@ -136,7 +136,7 @@ impl State {
                 Input::None => axis_signal(number, crate::image::axis_from_nck::speed_controller_active, false),
                 missing => missing,
             };
-            return Some((Rule::MotionBlocked, missing));
+            return Some((Rule::SpindleWithoutEnable, missing));
         }
         if spindle_factor(own, signals, self.axes[number].feed_factor) <= 0.0 {
             return Some((Rule::HeldByOverride, override_code(number, signals)));
@@ -173,7 +173,8 @@ impl State {
         self.travel(number, travel, cause);
     }
 
-    /// Whether the actual speed is within MD35150 of the commanded one; at standstill, below MD36060 (83.5).
+    /// Whether the actual speed is within MD35150 of the commanded one; without one, below MD36060 (83.5). What holds a spindle with a commanded
+    /// speed keeps it from that speed (S-10).
     pub(in crate::sinumerik) fn is_in_speed_range(&self, number: AxisNumber, parameters: &Parameters) -> bool {
         let (axis, own) = (&self.axes[number], &parameters.axes[number]);
         let (Some(spindle), Some(data)) = (self.spindles[number].as_deref(), own.spindle.as_deref()) else {
@@ -181,7 +182,7 @@ impl State {
         };
         let speed = axis.turning_speed();
         if spindle.commanded == 0.0 {
-            return speed.abs() < own.standstill_velocity;
+            return spindle.holder == Input::None && speed.abs() < own.standstill_velocity;
         }
         (speed - spindle.commanded).abs() <= data.tolerance * spindle.commanded.abs()
     }

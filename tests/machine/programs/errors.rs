@@ -40,6 +40,8 @@ fn each_error_has_its_alarm() {
         ("GOTOF NOWHERE\nM30", 14080),
         ("G2 X10 Y0 CR=2 F1000\nM30", 14095),
         ("G2 X10 Y0 I1 J0 F1000\nM30", 14040),
+        // K is no centre in G17; beside I it stays without effect.
+        ("G2 X10 Y0 K5 F1000\nM30", 14040),
         ("X2=5 F1000\nM30", 14092),
         ("POS[X2]=5\nM30", 14092),
         ("G74 X2=0\nM30", 16794),

@@ -11,7 +11,7 @@ use crate::sinumerik::rules::Rule;
 use crate::sinumerik::spindle::state::{Mode, Phase, Spindle, SpindlePositioning};
 use crate::sinumerik::state::Unit;
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{Place, six_decimals};
+use crate::variables::{Input, Place, six_decimals};
 
 /// The signals.
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
@@ -148,7 +148,10 @@ impl<'a> Look<'a> {
 
     fn at_its_speed(self, axis: AxisNumber, own: &SpindleParameters, spindle: &Spindle) -> Condition {
         let found = self.state.axes[axis].turning_speed();
-        let wanted = if spindle.commanded == 0.0 {
+        let held = spindle.commanded == 0.0 && spindle.holder != Input::None;
+        let wanted = if held {
+            "its commanded speed: it is held (S-10)".to_owned()
+        } else if spindle.commanded == 0.0 {
             format!(
                 "below {} (MD36060): its commanded speed is 0",
                 speed(self.parameters.axes[axis].standstill_velocity)
@@ -157,7 +160,8 @@ impl<'a> Look<'a> {
             format!("within {} % (MD35150) of {}", own.tolerance * 100.0, speed(spindle.commanded))
         };
         let holds = self.state.is_in_speed_range(axis, self.parameters);
-        Fact::new(format!("speed of {}", self.axis_name(axis)), speed(found), wanted, holds).into()
+        let fact = Fact::new(format!("speed of {}", self.axis_name(axis)), speed(found), wanted, holds);
+        if held { fact.after(|| Condition::All(self.turns_freely(axis, spindle))) } else { fact.into() }
     }
 
     fn oscillation(self, axis: AxisNumber, spindle: &Spindle, wanted: bool) -> Fact {
@@ -262,7 +266,6 @@ impl<'a> Look<'a> {
             if let Some((data, spindle)) = self.spindle(axis).filter(|(_, spindle)| spindle.is_programmed()) {
                 all.push(self.axis(axis, axis_from_nck::change_gear_stage, false));
                 all.push(self.at_its_speed(axis, data, spindle));
-                all.extend(self.turns_freely(axis, spindle));
             }
         }
         all

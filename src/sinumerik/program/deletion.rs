@@ -1,4 +1,4 @@
-//! DB31.DBX2.2, delete distance-to-go, of an axis that a program positions.
+//! Delete distance-to-go: DB21.DBX6.2 for the path, DB31.DBX2.2 of an axis that a program positions.
 
 use crate::image::axis_to_nck;
 use crate::sinumerik::inputs::axis_signal;
@@ -6,10 +6,32 @@ use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::Run;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::AxisSet;
+use crate::units::{AxisNumber, AxisSet};
 use crate::variables::Place;
 
 impl State {
+    /// DB21.DBX6.2: the path brakes, and the rest of its block is dropped.
+    pub(super) fn delete_distance_to_go_of_path(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let delete = stage.to_nck.channels[stage.channel].delete_distance_to_go();
+        let was = std::mem::replace(&mut run.delete_was, delete);
+        if delete && !was && !run.path.is_empty() && run.returning.is_none() {
+            run.deleting = true;
+        }
+        let rests = |axis: &AxisNumber| {
+            let is_on_path = self.owners.is_program_axis(*axis, stage.channel) && !run.leaves_alone(*axis);
+            !is_on_path || self.axes[*axis].setpoint.is_at_rest()
+        };
+        if run.deleting && run.path.velocity() <= 0.0 && stage.own.axes.path.iter().all(rests) {
+            run.deleting = false;
+            run.path.clear();
+            run.on_path = 0;
+            run.reorganise(run.path.position());
+            if let Some(block) = run.queue.front_mut() {
+                block.way = None;
+            }
+        }
+    }
+
     /// An axis that POS, POSA or a synchronised action positions brakes and drops the rest of its way.
     pub(super) fn delete_distance_to_go_of_axes(&mut self, run: &mut Run, stage: &Stage<'_>) {
         let path = stage.own.axes.path.iter().copied();
