@@ -5,6 +5,7 @@ mod arithmetic;
 mod calls;
 mod cpu;
 mod fault;
+mod flow;
 mod memory;
 mod observe;
 mod observed;
@@ -23,4 +24,4 @@ pub use registers::{Registers, Status};
 
 pub(in crate::plc::step7) use access::{Spot, Where};
 pub(in crate::plc::step7) use observe::{Kind, kind};
-pub(in crate::plc::step7) use observed::{NO, Named, Observed, RAN, Seen, YES};
+pub(in crate::plc::step7) use observed::{NO, Named, Observed, RAN, Read, Seen, YES};

@@ -5,6 +5,7 @@ use crate::plc::step7::text::constants::date_time_of;
 
 use super::cpu::{Cpu, McrState};
 use super::fault::{Fault, Stop};
+use super::flow::Flow;
 use super::memory::{Areas, OpenBlock};
 use super::registers::Status;
 
@@ -155,6 +156,9 @@ impl Cpu {
         self.state.registers.db = OpenBlock::default();
         self.state.registers.di = OpenBlock::default();
         self.state.registers.status = Status::default();
+        if let Some(observed) = &mut self.observed {
+            observed.flow = Flow::begin(start);
+        }
         let first = u32::try_from(self.work.parameters.len()).unwrap_or(u32::MAX);
         let nothing = (OpenBlock::default(), OpenBlock::default(), None);
         self.push(local, (first, 0), u32::MAX, nothing)?;
@@ -214,9 +218,13 @@ impl Cpu {
     /// Runs OB80, OB121 or OB122 within another block, which then goes on as it was.
     fn error_block<A: Areas>(&mut self, areas: &mut A, information: &Information) -> Result<(), Fault> {
         let (registers, mcr, pc, delayed) = (self.state.registers, self.work.mcr, self.work.pc, self.state.delayed);
+        let flow = self.observed.as_ref().map(|observed| observed.flow.clone());
         self.work.in_error = true;
         self.organization_block(areas, u16::from(information[3]), information)?;
         self.work.in_error = false;
+        if let (Some(observed), Some(flow)) = (&mut self.observed, flow) {
+            observed.flow = flow;
+        }
         self.state.registers = registers;
         self.state.delayed = delayed;
         (self.work.mcr, self.work.pc) = (mcr, pc);
