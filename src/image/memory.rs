@@ -54,6 +54,12 @@ impl Blocks {
         self.0.binary_search_by_key(&number, |block| block.number).ok()
     }
 
+    /// The number of the block at a place of the list.
+    #[must_use]
+    pub fn number_at(&self, place: usize) -> Option<u16> {
+        self.0.get(place).map(|block| block.number)
+    }
+
     /// The bytes of the block at a place of the list.
     #[must_use]
     pub fn at(&self, place: usize) -> Option<&Bytes> {

@@ -221,4 +221,7 @@ pub trait PlcProgram: Send {
 
     /// Clears the state, as after power on.
     fn reset(&mut self);
+
+    /// The next [`PlcProgram::startup`] is a cold restart (OB102).
+    fn prepare_cold_restart(&mut self) {}
 }

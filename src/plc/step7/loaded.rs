@@ -69,10 +69,11 @@ pub fn load(folder: &Path, name: &str) -> Result<LoadedProgram, Problem> {
     })?;
     program.cycle = toml.cycle;
     program.files = paths.into_iter().zip(program.files.iter().map(|(_, text)| text.clone())).collect();
-    if let Some(period) = toml.ob35 {
-        program.cpu =
-            Cpu::new(program.cpu.shared_program(), CpuOptions { ob35_nanos: period.nanos(), ..program.cpu.options() });
+    let mut options = program.cpu.options();
+    for (period, nanos) in toml.cyclic.into_iter().zip(&mut options.cyclic_nanos) {
+        *nanos = period.map_or(*nanos, Time::nanos);
     }
+    program.cpu = Cpu::new(program.cpu.shared_program(), options);
     Ok(program)
 }
 
@@ -310,6 +311,10 @@ impl PlcProgram for LoadedProgram {
         let observed = self.cpu.observed.take();
         self.cpu = Cpu::new(self.cpu.shared_program(), self.cpu.options());
         self.cpu.observed = observed;
+    }
+
+    fn prepare_cold_restart(&mut self) {
+        self.cpu.prepare_cold_restart();
     }
 
     fn observe(&mut self) {

@@ -73,6 +73,11 @@ impl Flow {
         Self { landed: start, ..Self::default() }
     }
 
+    /// ACCU1 has a value from elsewhere.
+    pub(in crate::plc::step7) fn forget_accu1(&mut self) {
+        self.accu[0] = Origin::default();
+    }
+
     /// The origin of ACCU1.
     pub(in crate::plc::step7) fn accu1(&self) -> &Origin {
         &self.accu[0]
