@@ -185,7 +185,7 @@ impl Tree<'_> {
                 plc::Tested::Word(operand, value) => self.value(operand, value.into(), depth + 1),
                 plc::Tested::Timer(number, status) => self.word(Part::Timers, number, status, depth + 1),
                 plc::Tested::TimerValue(number, value) => {
-                    self.value(word(Part::Timers, number), value.into(), depth + 1)
+                    self.value(word(Part::Timers, number), value.into(), depth + 1);
                 }
                 plc::Tested::Counter(number, status) => self.word(Part::Counters, number, status, depth + 1),
                 plc::Tested::CounterValue(number, value) => {

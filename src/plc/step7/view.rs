@@ -58,7 +58,7 @@ impl Map {
     /// The part and the byte of a byte of a data block.
     pub(super) fn place(&self, number: u16, byte: u32) -> Option<(Part, u32)> {
         // A block that the program has made has no slot.
-        let slot = self.slots.get(usize::from(number)).copied().unwrap_or(0).checked_sub(1).unwrap_or(0);
+        let slot = self.slots.get(usize::from(number)).copied().unwrap_or(0).saturating_sub(1);
         let Some(slot) = slot.checked_sub(INTERFACE) else { return Some((Part::Block(number), byte)) };
         let byte = self.interface.get(slot as usize)?.get(byte as usize)?;
         let part = match byte.side {

@@ -195,21 +195,21 @@ impl Cpu {
             }
             Op::Transfer(width, to) => {
                 let origin = if self.work.mcr.is_off() { Origin::constant() } else { flow.accu[0].clone() };
-                self.into_local(areas, &mut flow, (to, width.bits()), origin);
+                self.set_in_local(areas, &mut flow, (to, width.bits()), origin);
             }
-            Op::OperandFromRegister(_, to) => self.into_local(areas, &mut flow, (to, 32), Origin::default()),
+            Op::OperandFromRegister(_, to) => self.set_in_local(areas, &mut flow, (to, 32), Origin::default()),
             Op::Assign(to) | Op::Set(to) | Op::Reset(to) | Op::Edge(_, to) => {
-                self.into_local(areas, &mut flow, (to, 1), Origin::default());
+                self.set_in_local(areas, &mut flow, (to, 1), Origin::default());
             }
             Op::Copy(index) => {
                 let copy = self.program.copies[index as usize];
                 let origin = self.copied(areas, &flow, index);
-                self.into_local(areas, &mut flow, (copy.to, copy.bits), origin);
+                self.set_in_local(areas, &mut flow, (copy.to, copy.bits), origin);
             }
             Op::Pointer(index) => {
                 let made = self.program.pointers[index as usize];
                 let bits = if made.any.is_some() { 80 } else { 48 };
-                self.into_local(areas, &mut flow, (made.to, bits), Origin::default());
+                self.set_in_local(areas, &mut flow, (made.to, bits), Origin::default());
             }
             Op::Call(index) if matches!(self.program.calls[index as usize].target, Target::System(_)) => {
                 flow.local.clear();
@@ -265,7 +265,7 @@ impl Cpu {
         Some(Origin::of(Read { named, bits, value }))
     }
 
-    fn into_local<A: Areas>(&mut self, areas: &A, flow: &mut Flow, (to, bits): (Operand, u32), origin: Origin) {
+    fn set_in_local<A: Areas>(&mut self, areas: &A, flow: &mut Flow, (to, bits): (Operand, u32), origin: Origin) {
         if let Some(from) = self.spot(areas, to).ok().and_then(local) {
             flow.set_local(from, bits, origin);
         }

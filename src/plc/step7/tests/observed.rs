@@ -38,8 +38,11 @@ fn seen(plc: &mut Plc) -> Vec<(Named, Vec<(Named, bool)>)> {
         .collect()
 }
 
+/// A word, its new value, and the operands of which it was made, with their values.
+type Word = (Named, u32, Vec<(Named, u32)>);
+
 /// The words that the next scan changes, with their new values, and the operands of which they were made, with their values.
-fn words(plc: &mut Plc) -> Vec<(Named, u32, Vec<(Named, u32)>)> {
+fn words(plc: &mut Plc) -> Vec<Word> {
     plc.cpu.observed.as_mut().unwrap().begin_cycle();
     plc.after(SECOND);
     let seen = plc.cpu.observed.as_ref().unwrap().seen.iter().filter(|seen| seen.bits > 1);
@@ -88,12 +91,15 @@ fn the_jump_before_set_is_named() {
     assert_eq!(seen(&mut plc), [(m(20, 0), vec![]), (m(1, 0), reasons.clone()), (m(1, 1), reasons)][1..]);
 }
 
+/// A network, the word that it makes, and the operands.
+type WordCase<'a> = (&'a str, u32, &'a [(Named, u32)]);
+
 /// MW 30 is 3 and MW 32 is 4.
 #[test]
 fn a_word_names_the_operands_of_which_it_is_made() {
     let mw = |byte| m(byte, 0);
     let (a, b) = ((mw(30), 3), (mw(32), 4));
-    let cases: [(&str, u32, &[(Named, u32)]); 14] = [
+    let cases: [WordCase<'_>; 14] = [
         ("L MW 30; T MW 40;", 3, &[a]),
         ("L MW 30; L MW 32; +I; T MW 40;", 7, &[b, a]),
         ("L MW 30; L 5; *I; T MW 40;", 15, &[a]),

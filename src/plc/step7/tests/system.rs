@@ -392,7 +392,7 @@ fn reals_become_texts_and_texts_reals() {
         let data = plc.memory.data(20).unwrap();
         assert_eq!((data[1], std::str::from_utf8(&data[2..16]).unwrap()), (14, text));
         // The text of seven decimals is exact for these values.
-        assert_eq!(f32::from_bits(plc.double(24)), value);
+        assert_eq!(plc.double(24), value.to_bits());
         // Five letters are too few, and `X` is no number.
         assert_eq!((plc.memory.flags[0] & 0xF, data[17], plc.double(28)), (0b0011, 0, 0));
     }
