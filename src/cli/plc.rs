@@ -20,6 +20,7 @@ pub(super) fn check(folder: &Path, output: &mut Output) -> u8 {
     if let Some(program) = &compiled.program {
         sizes(program, output);
     }
+    remarks(&compiled.remarks, output);
     findings(&compiled.findings, output)
 }
 
@@ -72,6 +73,17 @@ fn sizes(program: &Program, output: &mut Output) {
     let left_out: Vec<_> = program.left_out().iter().map(ToString::to_string).collect();
     if !left_out.is_empty() {
         output.line(format!("calls that are left out, because the block is nowhere: {}", left_out.join(", ")));
+    }
+}
+
+/// Lists what the program has and the engine leaves out. It does not keep the program from running.
+fn remarks(remarks: &[Finding], output: &mut Output) {
+    if remarks.is_empty() {
+        return;
+    }
+    output.line(format!("\nleft out: {}", remarks.len()));
+    for remark in remarks {
+        output.line(format!("  {}", remark.to_string().lines().next().unwrap_or_default()));
     }
 }
 

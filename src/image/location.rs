@@ -74,6 +74,20 @@ impl Location {
         (1 << self.width) - 1
     }
 
+    /// The number that raw bits are in its number format.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "the width is checked: the number has at most 32 bits")]
+    pub fn number(self, raw: u64) -> f64 {
+        match self.format {
+            Format::Unsigned => raw as f64,
+            Format::Signed => {
+                let unused = 64 - u32::from(self.width);
+                ((raw << unused).cast_signed() >> unused) as f64
+            }
+            Format::Real => f64::from(f32::from_bits(raw as u32)),
+        }
+    }
+
     /// Whether two locations share a bit.
     #[must_use]
     pub fn overlaps(self, other: Self) -> bool {

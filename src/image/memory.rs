@@ -54,6 +54,12 @@ impl Blocks {
         self.0.binary_search_by_key(&number, |block| block.number).ok()
     }
 
+    /// The number of the block at a place of the list.
+    #[must_use]
+    pub fn number_at(&self, place: usize) -> Option<u16> {
+        self.0.get(place).map(|block| block.number)
+    }
+
     /// The bytes of the block at a place of the list.
     #[must_use]
     pub fn at(&self, place: usize) -> Option<&Bytes> {
@@ -227,17 +233,8 @@ impl Memory {
 
     /// The number at a location, in the number format of the location.
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "the width is checked: the number has at most 32 bits")]
     pub fn value(&self, location: Location) -> f64 {
-        let raw = self.read(location);
-        match location.format {
-            Format::Unsigned => raw as f64,
-            Format::Signed => {
-                let unused = 64 - u32::from(location.width);
-                ((raw << unused).cast_signed() >> unused) as f64
-            }
-            Format::Real => f64::from(f32::from_bits(raw as u32)),
-        }
+        location.number(self.read(location))
     }
 
     /// Writes raw bits to a location. Bits that do not fit are dropped. It has no effect if this memory does not contain the location.

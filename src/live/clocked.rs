@@ -102,7 +102,8 @@ impl Clocked {
         lines
     }
 
-    /// Takes one step. Returns a log line if the scenario or the trace ended in this step.
+    /// Takes one step. Returns a log line if the PLC program stopped the PLC or the PLC starts again, and if the scenario or the trace ended in
+    /// this step.
     pub(super) fn step(&mut self) -> Vec<String> {
         let Self { machine, steps, recording, trace, trace_bytes, operator, collected, history, .. } = self;
         let mut lines = Vec::new();
@@ -133,8 +134,14 @@ impl Clocked {
         if let Some(history) = history {
             history.edge(machine);
         }
+        let was_faulty = machine.program_fault().is_some();
         machine.step();
         *steps += 1;
+        match machine.program_fault() {
+            Some(fault) if !was_faulty => lines.push(format!("the PLC stops: {}", fault.replace("\n ", ";"))),
+            None if was_faulty => lines.push("the PLC starts again".to_owned()),
+            Some(_) | None => {}
+        }
         if let Some(collected) = collected {
             collected.extend(machine);
         }

@@ -95,6 +95,16 @@ impl Machine {
     /// Writes the record of a step.
     pub(super) fn record(&mut self) {
         let mut parts = std::mem::take(&mut self.before.parts);
+        // A program has made a data block: its bytes were 0 before.
+        let known = parts.len() - FIXED.len();
+        if self.state.memory.blocks.iter().nth(known).is_some() {
+            for (place, block) in self.state.memory.blocks.iter().enumerate() {
+                let part = Part::Block(block.number);
+                if parts.get(FIXED.len() + place).is_none_or(|(known, _)| *known != part) {
+                    parts.insert(FIXED.len() + place, (part, vec![0; block.bytes.len()]));
+                }
+            }
+        }
         for (index, (part, old)) in parts.iter_mut().enumerate() {
             let memory = &mut self.state.memory;
             let may_differ = match part {

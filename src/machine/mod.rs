@@ -151,8 +151,8 @@ impl Machine {
         self.program.as_ref()?.symbols()
     }
 
-    /// What the PLC program does with a bit, or with the word of a timer, in its next scan: the statements that write it, in order, with the operands that decide. Empty
-    /// if it writes it in no statement that runs, or does not say so.
+    /// What the PLC program does with a bit, a word, or the word of a timer in its next scan: the statements that write it, in order, with the
+    /// operands that decide. Empty if it writes it in no statement that runs, or does not say so.
     #[must_use]
     pub fn program_writes(&self, location: Location) -> Vec<ProgramCause> {
         let Ok(mut next) = self.fork() else { return Vec::new() };
@@ -162,10 +162,7 @@ impl Machine {
             next.step();
             next.drain();
         }
-        let bit = location.offset * 8 + u32::from(location.bit);
-        let is_meant =
-            |cause: &ProgramCause| (cause.part, cause.bit, cause.bits) == (location.part, bit, location.width.into());
-        next.program_causes().into_iter().filter(is_meant).collect()
+        next.program_causes().into_iter().filter(|cause| cause.wrote(location).is_some()).collect()
     }
 
     /// What ran of the PLC program since it is observed, if it is a program with statements.

@@ -123,6 +123,9 @@ impl Machine {
             Command::PlcColdRestart => {
                 self.forget_plc_memory();
                 self.restart_program();
+                if let Some(program) = &mut self.program {
+                    program.prepare_cold_restart();
+                }
                 let event = self.control.command(&ControlCommand::PlcRestarted);
                 self.record_happening(Happening::PlcColdRestart, By::Outside, event);
             }

@@ -90,7 +90,8 @@ impl SavedDefinition {
 
 /// How a saved memory differs in the lengths of its areas.
 fn other_areas(mine: &Memory, saved: &Memory) -> Option<(String, String)> {
-    let blocks = mine.blocks.iter().chain(saved.blocks.iter()).map(|block| Part::Block(block.number));
+    // A block that only the saved memory has was made by the program.
+    let blocks = mine.blocks.iter().map(|block| Part::Block(block.number));
     let part = FIXED.into_iter().chain(blocks).find(|part| mine.part(*part).len() != saved.part(*part).len())?;
     let said = |memory: &Memory| match (part, memory.part(part).len()) {
         (Part::Block(number), 0) => format!("no DB{number}"),

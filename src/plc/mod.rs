@@ -91,8 +91,8 @@ pub struct ProgramCause {
     pub bit: u32,
     /// The number of bits.
     pub bits: u32,
-    /// The new value of a single bit.
-    pub value: bool,
+    /// The new value.
+    pub value: u32,
     /// The statement with its place: `FC10, network 3, statement 5 (motor.awl:12)`.
     pub statement: Arc<str>,
     /// The operands that were decisive, with their values.
@@ -104,10 +104,36 @@ pub struct ProgramCause {
 pub enum Tested {
     /// A bit of the memory.
     Bit(Location, bool),
+    /// A byte, a word or a double word of the memory, with the value that it had when it was read.
+    Word(Location, u32),
     /// The status of a timer.
     Timer(u16, bool),
+    /// The value of a timer as it was loaded.
+    TimerValue(u16, u16),
     /// Whether a counter is not 0.
     Counter(u16, bool),
+    /// The value of a counter as it was loaded.
+    CounterValue(u16, u16),
+}
+
+impl ProgramCause {
+    /// What it wrote at a location; `None` if it wrote elsewhere, or only a part of it.
+    #[must_use]
+    pub fn wrote(&self, location: Location) -> Option<u32> {
+        let begin = location.offset * 8 + u32::from(location.bit);
+        let width = u32::from(location.width);
+        if self.part != location.part || begin < self.bit || begin + width > self.bit + self.bits {
+            return None;
+        }
+        if (self.bits, self.bit) == (width, begin) {
+            return Some(self.value);
+        }
+        // The first byte is the highest.
+        let bytes = location.bytes();
+        let behind = self.bits / 8 - (location.offset - self.bit / 8) - bytes;
+        let value = self.value.checked_shr(behind * 8 + u32::from(location.bit)).unwrap_or(0);
+        Some(value & u32::MAX.checked_shr(32 - width).unwrap_or(0))
+    }
 }
 
 /// A PLC program of any kind. It sees the parts of the interface as bytes, independent of the control. [`PlcIo::typed`] gives the
@@ -195,4 +221,7 @@ pub trait PlcProgram: Send {
 
     /// Clears the state, as after power on.
     fn reset(&mut self);
+
+    /// The next [`PlcProgram::startup`] is a cold restart (OB102).
+    fn prepare_cold_restart(&mut self) {}
 }

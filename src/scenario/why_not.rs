@@ -4,23 +4,32 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::naming::signal_named;
+use super::program_rows::{in_its_format, word};
 use super::session::Session;
-use crate::image::{Format, Location, Part, Writer};
+use crate::image::{Location, Part, Writer};
 use crate::machine::{Subject, Tested};
 use crate::plc;
 use crate::source::Problem;
+use crate::trace::Shown;
 
 impl Session {
     /// What must hold so that a bit of the control becomes the opposite of its value now, as a tree. Shows only what does not hold;
-    /// `complete` shows what holds, too.
+    /// `complete` shows what holds, too. Of a byte or a word that the PLC program writes: the statements and the operands that make it.
     ///
     /// # Errors
-    /// The signal does not exist, is not a bit, or the control says nothing about it.
+    /// The signal does not exist, the control writes it and it is no bit, or the control says nothing about it.
     pub fn why_not(&self, signal: &str, complete: bool) -> Result<String, Problem> {
         let machine = self.machine();
         let names = machine.names();
         let location = signal_named(machine, signal)?;
         let shown = self.shown(location);
+        if location.width != 1 && names.writer(location) != Some(Writer::Nck) {
+            let value = Shown::of(location, machine.memory().read(location));
+            let text = format!("{:>9}  {shown} is {value}: {}\n", self.time().to_string(), self.writer(location));
+            let mut tree = Tree { session: self, complete, recursive: true, text, asked: BTreeSet::new() };
+            tree.written(location, 1);
+            return Ok(tree.text);
+        }
         if location.width != 1 {
             let cure = "ask for one bit: `X.position_controller_active@0.3`, `DB31.DBX61.5@0.3`";
             return Err(Problem::new(format!("expected a signal of one bit, found {shown}"), cure));
@@ -155,23 +164,51 @@ impl Tree<'_> {
 
     /// The statements of the PLC program that keep a bit from a value, and the contacts that are open in them.
     fn program(&mut self, location: Location, wanted: bool, depth: usize) {
-        let session = self.session;
-        for cause in session.machine().program_writes(location).into_iter().filter(|cause| cause.value != wanted) {
-            self.line(depth, false, &cause.statement);
-            for tested in cause.tested {
-                match tested {
-                    plc::Tested::Bit(operand, value) => self.signal(operand, !value, false, depth + 1),
-                    plc::Tested::Timer(number, status) => self.word(Part::Timers, number, status, depth + 1),
-                    plc::Tested::Counter(number, status) => self.word(Part::Counters, number, status, depth + 1),
+        let keeps = |cause: &plc::ProgramCause| cause.wrote(location).is_some_and(|value| (value != 0) != wanted);
+        for cause in self.session.machine().program_writes(location).into_iter().filter(keeps) {
+            self.statement(&cause, depth);
+        }
+    }
+
+    /// The statements of the PLC program that write a byte or a word, and the operands of which they make it.
+    fn written(&mut self, location: Location, depth: usize) {
+        for cause in self.session.machine().program_writes(location) {
+            self.statement(&cause, depth);
+        }
+    }
+
+    fn statement(&mut self, cause: &plc::ProgramCause, depth: usize) {
+        self.line(depth, false, &cause.statement);
+        for tested in &cause.tested {
+            match *tested {
+                plc::Tested::Bit(operand, value) => self.signal(operand, !value, false, depth + 1),
+                plc::Tested::Word(operand, value) => self.value(operand, value.into(), depth + 1),
+                plc::Tested::Timer(number, status) => self.word(Part::Timers, number, status, depth + 1),
+                plc::Tested::TimerValue(number, value) => {
+                    self.value(word(Part::Timers, number), value.into(), depth + 1);
+                }
+                plc::Tested::Counter(number, status) => self.word(Part::Counters, number, status, depth + 1),
+                plc::Tested::CounterValue(number, value) => {
+                    self.value(word(Part::Counters, number), value.into(), depth + 1);
                 }
             }
         }
     }
 
+    /// A byte or a word that a statement read, and the statements that write it.
+    fn value(&mut self, location: Location, value: u64, depth: usize) {
+        let session = self.session;
+        let location = in_its_format(location, session.machine().names());
+        let (shown, value) = (session.shown(location), Shown::of(location, value));
+        self.line(depth, false, &format!("{shown} = {value}: {}", session.writer(location)));
+        if self.asked.insert((location, false)) {
+            self.written(location, depth + 1);
+        }
+    }
+
     /// A timer or a counter, and the statement that does not start it.
     fn word(&mut self, part: Part, number: u16, status: bool, depth: usize) {
-        let offset = u32::from(number) * 2;
-        let location = Location { part, offset, bit: 0, width: 16, format: Format::Unsigned };
+        let location = word(part, number);
         let shown = self.session.shown(location);
         self.line(depth, false, &format!("{shown} = {}, wanted {}", u8::from(status), u8::from(!status)));
         if self.asked.insert((location, !status)) {

@@ -2,7 +2,7 @@
 
 use super::Trace;
 use super::history::ProgramRow;
-use super::printable::signal_name;
+use super::printable::{Shown, signal_name};
 use crate::image::{Interface, Names};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, six_decimals};
@@ -16,12 +16,12 @@ pub(super) fn because(event: &Event, describe: &dyn Describe) -> String {
     format!("{}: {}", rule.id, text.into_iter().chain(inputs).collect::<Vec<_>>().join(", "))
 }
 
-/// The statement that changed a bit, and the operands that made its result: `OB1, network 2, statement 3 (main.awl:8): I0.0 = 1`.
+/// The statement that changed a bit or a word, and the operands that made its result: `OB1, network 2, statement 3 (main.awl:8): I0.0 = 1`.
 pub(super) fn by_program(trace: &Trace, row: &ProgramRow, names: &Names) -> String {
     let tested = row.tested.iter().map(|&(location, value)| {
         let address = names.address(location).to_string();
         let name = names.symbol(location).unwrap_or_else(|| trace.program_name(&address));
-        format!("{name} = {}", u8::from(value))
+        format!("{name} = {}", Shown::of(location, value))
     });
     let tested: Vec<_> = tested.collect();
     if tested.is_empty() { row.statement.to_string() } else { format!("{}: {}", row.statement, tested.join(", ")) }

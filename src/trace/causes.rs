@@ -6,7 +6,7 @@ use super::Trace;
 use super::because::{because, by_program, input_name, per_turn};
 use super::history::ProgramRow;
 use super::lines::{Line, LineKind};
-use super::printable::signal_at;
+use super::printable::{Shown, signal_at};
 use crate::image::{Location, Names, Part};
 use crate::units::Time;
 use crate::variables::{AlarmNumber, Describe, Event, Input, Place, SignalBit, place_name, six_decimals};
@@ -32,7 +32,7 @@ pub(super) struct Cause {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum CauseInput {
     /// A signal by address, and by symbol if it has one.
-    Signal { address: String, symbol: Option<String>, value: u8 },
+    Signal { address: String, symbol: Option<String>, value: String },
     /// A machine datum, in the notation of scenarios: `37110[XF]`, `36012[0,XF]`.
     Datum(String, f64),
     /// A value that is not a signal, with six decimals.
@@ -43,8 +43,8 @@ pub(super) enum CauseInput {
     Fault(String),
     /// A block of a program, by its number, label or line.
     Block(String),
-    /// A timer or a counter of the PLC, and its status.
-    Timer(String, bool),
+    /// A timer or a counter of the PLC, and its status, or the value that was loaded.
+    Timer(String, u64),
 }
 
 impl CauseInput {
@@ -76,7 +76,7 @@ impl CauseInput {
         let (_, number) = bit.place.block();
         let location = names.interface().location(signal, number)?;
         let address = names.address(location).to_string();
-        Some(Self::Signal { address, symbol: names.symbol(location), value })
+        Some(Self::Signal { address, symbol: names.symbol(location), value: value.to_string() })
     }
 }
 
@@ -100,11 +100,14 @@ impl Trace {
     }
 
     fn cause_in_program(&self, number: u32, row: &ProgramRow, names: &Names) -> Cause {
-        let input = |&(location, value): &(Location, bool)| {
+        let input = |&(location, value): &(Location, u64)| {
             let address = names.address(location).to_string();
             match location.part {
                 Part::Timers | Part::Counters => CauseInput::Timer(address, value),
-                _ => CauseInput::Signal { address, symbol: names.symbol(location), value: value.into() },
+                _ => {
+                    let value = Shown::of(location, value).to_string();
+                    CauseInput::Signal { address, symbol: names.symbol(location), value }
+                }
             }
         };
         Cause {

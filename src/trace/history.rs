@@ -14,6 +14,9 @@ use crate::image::{Location, Memory, Part, PartBytes};
 use crate::units::Time;
 use crate::variables::{Event, EventId, Happening, NamedValue, RuleNumber, Variables};
 
+/// The rows about the PLC program after which those of words that change all the time are thinned out.
+const PROGRAM_ROWS: usize = 200_000;
+
 /// A trace that grows while a machine runs.
 #[derive(Clone, Debug)]
 pub struct Trace {
@@ -34,6 +37,8 @@ pub struct Trace {
     pub(super) values: Vec<ValueRow>,
     /// Why the PLC program changed bits, in the order of cycles.
     pub(super) programs: Vec<ProgramRow>,
+    /// The number of them at which some are forgotten.
+    room_for_programs: usize,
     /// The symbols of the PLC program by addresses.
     symbols: Arc<BTreeMap<String, String>>,
     /// The texts of watched values.
@@ -78,8 +83,8 @@ pub struct ProgramRow {
     pub value: bool,
     /// The statement that wrote them.
     pub statement: Arc<str>,
-    /// The bits that were tested, with their values.
-    pub tested: Vec<(Location, bool)>,
+    /// The operands that were tested or read, with their raw values.
+    pub tested: Vec<(Location, u64)>,
 }
 
 impl Trace {
@@ -98,6 +103,7 @@ impl Trace {
             watched: Vec::new(),
             values: Vec::new(),
             programs: Vec::new(),
+            room_for_programs: PROGRAM_ROWS,
             symbols: Arc::default(),
             texts: Vec::new(),
             measured: None,
@@ -137,6 +143,21 @@ impl Trace {
     /// Takes over why the PLC program changed bits in a cycle.
     pub fn extend_causes(&mut self, cycle: u64, causes: impl IntoIterator<Item = ProgramRow>) {
         self.programs.extend(causes.into_iter().map(|cause| ProgramRow { cycle, ..cause }));
+        if self.programs.len() > self.room_for_programs {
+            self.thin();
+        }
+    }
+
+    /// Forgets the older half of the words of flags and data blocks, of which some change in every scan.
+    fn thin(&mut self) {
+        let is_word = |row: &ProgramRow| row.bits > 1 && matches!(row.part, Part::Flags | Part::Block(_));
+        let mut left = self.programs.iter().filter(|row| is_word(row)).count() / 2;
+        self.programs.retain(|row| {
+            let goes = left > 0 && is_word(row);
+            left -= usize::from(goes);
+            !goes
+        });
+        self.room_for_programs = self.programs.len() + PROGRAM_ROWS;
     }
 
     /// Why the PLC program changed these bits in a cycle to a value, and the number of this cause in the trace.

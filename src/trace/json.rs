@@ -52,7 +52,9 @@ fn input(input: &CauseInput) -> String {
     match input {
         CauseInput::Signal { address, symbol, value } => {
             let symbol = symbol.as_ref().map(|symbol| format!(",\"symbol\":{}", quoted(symbol))).unwrap_or_default();
-            format!("{{\"signal\":{}{symbol},\"value\":{}}}", quoted(address), value)
+            // JSON has no infinity.
+            let value = if value.parse().is_ok_and(f64::is_finite) { value } else { "null" };
+            format!("{{\"signal\":{}{symbol},\"value\":{value}}}", quoted(address))
         }
         CauseInput::Datum(name, value) => {
             let value = if value.is_finite() { value.to_string() } else { "null".to_owned() };
@@ -64,7 +66,7 @@ fn input(input: &CauseInput) -> String {
             Err(_) => format!("{{\"alarm\":{}}}", quoted(name)),
         },
         CauseInput::Fault(name) => format!("{{\"fault\":{}}}", quoted(name)),
-        CauseInput::Timer(name, status) => format!("{{\"timer\":{},\"value\":{}}}", quoted(name), u8::from(*status)),
+        CauseInput::Timer(name, status) => format!("{{\"timer\":{},\"value\":{}}}", quoted(name), status),
         CauseInput::Block(name) => format!("{{\"block\":{}}}", quoted(name)),
     }
 }

@@ -176,7 +176,7 @@ impl Trace {
                         because = Some(by_program(self, row, names));
                         event = number;
                     }
-                    let is_clock = location.part == Part::Timers && because.is_none() && watch.locations().is_empty();
+                    let is_clock = location.part == Part::Timers && because.is_none() && watch.is_of_everything();
                     if is_clock {
                         continue;
                     }

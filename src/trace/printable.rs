@@ -78,13 +78,7 @@ pub(super) fn signal_name(bit: SignalBit, names: &Names) -> String {
 
 /// The value at a location in a memory.
 pub(super) fn shown(memory: &Memory, location: Location) -> Shown {
-    if location.width == 1 {
-        return Shown::Bit(memory.read(location) != 0);
-    }
-    match location.format {
-        Format::Unsigned => Shown::Unsigned(memory.read(location)),
-        Format::Signed | Format::Real => Shown::Number(memory.value(location)),
-    }
+    Shown::of(location, memory.read(location))
 }
 
 /// A value in a row.
@@ -96,6 +90,20 @@ pub enum Shown {
     Unsigned(u64),
     /// A number with sign, or a REAL.
     Number(f64),
+}
+
+impl Shown {
+    /// The value of raw bits in the format of a location.
+    #[must_use]
+    pub fn of(location: Location, raw: u64) -> Self {
+        if location.width == 1 {
+            return Self::Bit(raw != 0);
+        }
+        match location.format {
+            Format::Unsigned => Self::Unsigned(raw),
+            Format::Signed | Format::Real => Self::Number(location.number(raw)),
+        }
+    }
 }
 
 impl std::fmt::Display for Shown {

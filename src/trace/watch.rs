@@ -12,8 +12,8 @@ use crate::variables::{AxisValue, NamedValue, Variables};
 pub struct Watch {
     /// `None` selects the default.
     chosen: Option<Chosen>,
-    /// The default, and every bit of the areas and data blocks of the PLC program, every timer and every counter.
-    has_every_bit: bool,
+    /// The default, and every bit of the areas and data blocks of the PLC program, every timer and every counter, and these bytes and words.
+    every_bit: Option<Vec<Location>>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -64,12 +64,17 @@ impl Watch {
         // The finest step of a value that is named twice counts.
         chosen.values.sort_by(|one, other| one.value.cmp(&other.value).then(one.step.total_cmp(&other.step)));
         chosen.values.dedup_by_key(|item| item.value);
-        Ok(Self { chosen: Some(chosen), has_every_bit: false })
+        Ok(Self { chosen: Some(chosen), every_bit: None })
     }
 
-    /// Every signal, and every bit, timer and counter of the PLC program, that changed.
-    pub(super) fn every_bit() -> Self {
-        Self { chosen: None, has_every_bit: true }
+    /// Every signal, and every bit, timer and counter of the PLC program, and these bytes and words of it, that changed.
+    pub(super) fn every_bit(words: impl IntoIterator<Item = Location>) -> Self {
+        Self { chosen: None, every_bit: Some(words.into_iter().collect()) }
+    }
+
+    /// Whether it shows what changes without a statement, such as a timer that runs, only if it is named.
+    pub(super) fn is_of_everything(&self) -> bool {
+        self.chosen.as_ref().is_none_or(|chosen| chosen.locations.is_empty())
     }
 
     /// The selected values.
@@ -82,7 +87,7 @@ impl Watch {
     }
 
     pub(super) fn locations(&self) -> &[Location] {
-        self.chosen.as_ref().map_or(&[], |chosen| &chosen.locations)
+        self.chosen.as_ref().map(|chosen| &chosen.locations).or(self.every_bit.as_ref()).map_or(&[], Vec::as_slice)
     }
 
     /// The signals of the catalogue that are shown even if they never change: those that match a pattern, unless it selects a whole owner or
@@ -109,7 +114,7 @@ impl Watch {
 
     pub(super) fn shows_unnamed_bit(&self, bit: &Printable) -> bool {
         match &self.chosen {
-            None => self.has_every_bit || matches!(bit.location.part, Part::Inputs | Part::Outputs),
+            None => self.every_bit.is_some() || matches!(bit.location.part, Part::Inputs | Part::Outputs),
             Some(chosen) => chosen.shows(bit),
         }
     }

@@ -12,7 +12,7 @@ use super::misplaced::value_as_signal;
 use super::printable::is_bit;
 use super::record::by_in_words;
 use super::{Line, LineKind, Trace, Watch};
-use crate::image::Location;
+use crate::image::{Format, Location, Part};
 use crate::source::{Problem, did_you_mean};
 use crate::units::Time;
 use crate::variables::Describe;
@@ -55,10 +55,23 @@ impl Trace {
         self.story(describe).why(&describe.names().address(location).to_string(), time)
     }
 
+    /// The bytes and words that the PLC program wrote and read.
+    fn words(&self) -> BTreeSet<Location> {
+        let written = self.programs.iter().filter(|row| row.bits > 1).filter_map(|row| {
+            let (offset, width) = (row.bit / 8, u8::try_from(row.bits).ok()?);
+            Some(Location { part: row.part, offset, bit: 0, width, format: Format::Unsigned })
+        });
+        let read = self.programs.iter().flat_map(|row| row.tested.iter().map(|(location, _)| *location));
+        let is_word = |location: &Location| {
+            location.width > 1 && location.is_well_formed() && !matches!(location.part, Part::Timers | Part::Counters)
+        };
+        written.chain(read).filter(is_word).collect()
+    }
+
     /// All changes, with the events that caused them.
     #[must_use]
     pub fn story(&self, describe: &dyn Describe) -> Story {
-        let lines = self.lines(describe, &Watch::every_bit());
+        let lines = self.lines(describe, &Watch::every_bit(self.words()));
         let numbers = 1..=u32::try_from(self.events.len() + self.programs.len()).unwrap_or(u32::MAX);
         Story {
             edges: lines.iter().filter_map(Edge::of).collect(),
@@ -341,7 +354,7 @@ impl<'a> Chain<'a> {
             return self.timer(name, *status, time, depth);
         }
         let (name, new) = match input {
-            CauseInput::Signal { address, value, .. } => (address.clone(), value.to_string()),
+            CauseInput::Signal { address, value, .. } => (address.clone(), value.clone()),
             CauseInput::Alarm(name) => (format!("alarm({name})"), "raised".to_owned()),
             // Measured values and machine data are in the text of the event.
             CauseInput::Datum(..)
@@ -367,13 +380,13 @@ impl<'a> Chain<'a> {
 
 impl Chain<'_> {
     /// Follows a timer or a counter to the statement that started or changed it last.
-    fn timer(&mut self, name: &str, status: bool, time: Time, depth: usize) {
+    fn timer(&mut self, name: &str, status: u64, time: Time, depth: usize) {
         let of_name = self.by_value.range((name, "")..).take_while(|((of, _), _)| *of == name);
         let edges = of_name.flat_map(|(_, edges)| edges).copied();
         let last = edges.filter(|index| self.story.edges[*index].time <= time).max();
         match last {
             Some(index) => self.open.push((Follow::Edge(index), depth)),
-            None => self.timeless_row(depth, &format!("{name}  {}  without an edge in this trace", u8::from(status))),
+            None => self.timeless_row(depth, &format!("{name}  {status}  without an edge in this trace")),
         }
     }
 }
@@ -409,7 +422,7 @@ fn input(input: &Value) -> Option<CauseInput> {
     let text = |key: &str| input.get(key).and_then(Value::as_str).map(str::to_owned);
     let value = input.get("value");
     if let Some(address) = text("signal") {
-        let value = value.and_then(Value::as_u64).and_then(|value| u8::try_from(value).ok())?;
+        let value = value.filter(|value| value.is_number())?.to_string();
         return Some(CauseInput::Signal { address, symbol: text("symbol"), value });
     }
     if let Some(name) = text("machine_data") {
@@ -425,7 +438,7 @@ fn input(input: &Value) -> Option<CauseInput> {
         return Some(CauseInput::Block(block));
     }
     if let Some(timer) = text("timer") {
-        return Some(CauseInput::Timer(timer, value.and_then(Value::as_u64) == Some(1)));
+        return Some(CauseInput::Timer(timer, value.and_then(Value::as_u64).unwrap_or(0)));
     }
     text("symbol").map(|name| CauseInput::Value(name, plain(value)))
 }

@@ -305,6 +305,53 @@ fn why_not_names_the_open_contact() {
     assert!(!text.contains("Key X minus"), "its contact is closed:\n{text}");
 }
 
+/// An override and a counter: a word names its statement and the words of which it is made, back to the input.
+#[test]
+fn words_name_the_words_of_which_they_are_made() {
+    let directory = directory(
+        "made",
+        "FUNCTION FC 1 : VOID\nBEGIN\nNETWORK\nL IW 2;\nL 2;\n*I;\nT MW 20;\nNETWORK\nL MB 21;\nT DB32.DBB 0;\n\
+         L DB100.limit;\nL MW 20;\n<=I;\n= Q 0.0;\nEND_FUNCTION\n\
+         DATA_BLOCK DB 100\nSTRUCT\nlimit : INT := 50;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n\
+         ORGANIZATION_BLOCK OB 1\nBEGIN\nCALL FC 1;\nEND_ORGANIZATION_BLOCK\n",
+        "",
+    );
+    let finished = passes(
+        &directory,
+        "watch = [\"MW20\", \"DB32.DBB0\", \"Q0.0\", \"IW2\"]\n[[step]]\nrun = \"10cycles\"\n[[step]]\nset = { \"IB3\" = 30 }\n[[step]]\nrun = \"2cycles\"\n",
+    );
+    let text = finished.text();
+    for row in [
+        "0 -> 60  plc      FC1, network 1, statement 4 (main.awl:7): IW2 = 30",
+        "FC1, network 2, statement 2 (main.awl:10): MB21 = 60",
+        "FC1, network 2, statement 6 (main.awl:14): MW20 = 60, DB100.DBW0 = 50",
+    ] {
+        assert!(text.contains(row), "{row}\n{text}");
+    }
+    let session = finished.session();
+    let why = session.trace().story(session.machine()).why("DB32.DBB0", session.time()).unwrap();
+    let rows = [
+        "because FC1, network 2, statement 2 (main.awl:10): MB21 = 60",
+        "MB21  0 -> 60",
+        "IW2 = 30",
+        "IW2  0 -> 30  by outside",
+    ];
+    let mut rest = why.as_str();
+    for row in rows {
+        rest = &rest[rest.find(row).unwrap_or_else(|| panic!("{row}\n{why}"))..];
+    }
+    // A word that does not change: the statement that writes it, and what it reads.
+    let why_not = session.why_not("MW20", false).unwrap();
+    assert!(why_not.contains("MW20 is 60: changed last at"), "{why_not}");
+    assert!(why_not.contains("FC1, network 1, statement 4 (main.awl:7)\n"), "{why_not}");
+    assert!(why_not.contains("IW2 = 30: changed last at"), "{why_not}");
+    // A bit that a comparison makes, and a bit within a byte that is transferred: 60 is 0011_1100.
+    let why_not = session.why_not("Q0.0", false).unwrap();
+    assert!(why_not.contains("MW20 = 60") && why_not.contains("DB100.DBW0 = 50: never changed"), "{why_not}");
+    let why_not = session.why_not("DB32.DBX0.0", false).unwrap();
+    assert!(why_not.contains("statement 2 (main.awl:10)") && why_not.contains("MB21 = 60"), "{why_not}");
+}
+
 fn portal() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/step7_portal")
 }

@@ -15,5 +15,6 @@ mod s7_client;
 mod s7_command;
 mod s7_safety;
 mod s7_server;
+mod step7;
 #[cfg(feature = "web")]
 mod web;

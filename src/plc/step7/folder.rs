@@ -16,8 +16,8 @@ use super::text::symbols::SymbolForm;
 pub struct PlcToml {
     /// The cycle of OB1; the NC cycle by default.
     pub cycle: Option<Time>,
-    /// The period of OB35.
-    pub ob35: Option<Time>,
+    /// The periods of OB30 to OB38.
+    pub cyclic: [Option<Time>; 9],
     /// How the sources are compiled.
     pub settings: Settings,
 }
@@ -33,6 +33,9 @@ pub struct Folder {
 
 /// The keys of `[areas]`, in the order of [`Settings::least`], with their limits.
 const AREAS: [(&str, i64); 5] = [("I", 65_536), ("Q", 65_536), ("M", 65_536), ("T", 65_536), ("C", 65_536)];
+
+/// The keys of the periods of OB30 to OB38.
+const CYCLIC: [&str; 9] = ["ob30", "ob31", "ob32", "ob33", "ob34", "ob35", "ob36", "ob37", "ob38"];
 
 impl Folder {
     /// Reads a folder.
@@ -85,7 +88,8 @@ impl PlcToml {
     pub fn parse(text: &str, file: &str) -> Result<Self, Problem> {
         let mut table = Table::parse(text, file)?;
         let mut toml = Self::default();
-        for (key, value) in [("cycle", &mut toml.cycle), ("ob35", &mut toml.ob35)] {
+        let periods = CYCLIC.into_iter().zip(&mut toml.cyclic);
+        for (key, value) in [("cycle", &mut toml.cycle)].into_iter().chain(periods) {
             if let Some(node) = table.take(key) {
                 let time = Time::parse(node.text("a duration")?).filter(|&time| time > Time::ZERO);
                 *value = Some(time.ok_or_else(|| node.expected("a duration longer than 0", "write \"10ms\""))?);
@@ -158,7 +162,12 @@ mod tests {
     fn plc_toml_is_read_and_wrong_keys_are_named() {
         let text = "cycle = \"10ms\"\nob35 = \"100ms\"\nmissing = \"ignore\"\n[blocks]\nours = [\"FB1\"]\nFC210 = \"SCALE\"\n[areas]\nM = 4096\n";
         let toml = PlcToml::parse(text, "plc.toml").unwrap();
-        assert_eq!((toml.cycle, toml.ob35), (Some(Time::from_millis(10)), Some(Time::from_millis(100))));
+        assert_eq!((toml.cycle, toml.cyclic[5]), (Some(Time::from_millis(10)), Some(Time::from_millis(100))));
+        let periods = PlcToml::parse("ob30 = \"3s\"\nob38 = \"8ms\"", "plc.toml").unwrap().cyclic;
+        assert_eq!(
+            (periods[0], periods[5], periods[8]),
+            (Some(Time::from_millis(3000)), None, Some(Time::from_millis(8)))
+        );
         assert!(toml.settings.ignores_missing);
         assert_eq!(toml.settings.least, [128, 128, 4096, 32, 32]);
         assert_eq!(toml.settings.ours, [BlockName { kind: BlockKind::Fb, number: 1 }]);

@@ -11,7 +11,7 @@ use crate::units::Time;
 
 use super::compile::{Settings, Source, compile};
 use super::coverage::Coverage;
-use super::engine::{Area, Cpu, CpuOptions, CpuState, Named, Seen, Stop};
+use super::engine::{Area, Cpu, CpuOptions, CpuState, Named, Read, Seen, Stop};
 use super::folder::Folder;
 use super::program::Program;
 use super::text::finding::Finding;
@@ -69,10 +69,11 @@ pub fn load(folder: &Path, name: &str) -> Result<LoadedProgram, Problem> {
     })?;
     program.cycle = toml.cycle;
     program.files = paths.into_iter().zip(program.files.iter().map(|(_, text)| text.clone())).collect();
-    if let Some(period) = toml.ob35 {
-        program.cpu =
-            Cpu::new(program.cpu.shared_program(), CpuOptions { ob35_nanos: period.nanos(), ..program.cpu.options() });
+    let mut options = program.cpu.options();
+    for (period, nanos) in toml.cyclic.into_iter().zip(&mut options.cyclic_nanos) {
+        *nanos = period.map_or(*nanos, Time::nanos);
     }
+    program.cpu = Cpu::new(program.cpu.shared_program(), options);
     Ok(program)
 }
 
@@ -110,15 +111,7 @@ impl LoadedProgram {
 
     fn cause(&self, seen: &Seen) -> Option<ProgramCause> {
         let (part, bit) = self.place(seen.place)?;
-        let tested = seen.tested.iter().filter_map(|&(named, value)| match named {
-            Named::Timer(number) => Some(Tested::Timer(number, value)),
-            Named::Counter(number) => Some(Tested::Counter(number, value)),
-            Named::Area(..) | Named::Block(..) | Named::ToNck(_) => {
-                let (part, bit) = self.place(named)?;
-                let (offset, bit) = (bit / 8, u8::try_from(bit % 8).ok()?);
-                Some(Tested::Bit(Location { part, offset, bit, width: 1, format: Format::Unsigned }, value))
-            }
-        });
+        let tested = seen.tested.iter().filter_map(|read| self.tested(read));
         Some(ProgramCause {
             part,
             bit,
@@ -126,6 +119,37 @@ impl LoadedProgram {
             value: seen.value,
             statement: self.place_of(seen.pc),
             tested: tested.collect(),
+        })
+    }
+
+    fn tested(&self, read: &Read) -> Option<Tested> {
+        let Read { named, bits, value } = *read;
+        let word = u16::try_from(value).unwrap_or(u16::MAX);
+        Some(match named {
+            Named::Timer(number) if bits == 1 => Tested::Timer(number, value != 0),
+            Named::Timer(number) => Tested::TimerValue(number, word),
+            Named::Counter(number) if bits == 1 => Tested::Counter(number, value != 0),
+            Named::Counter(number) => Tested::CounterValue(number, word),
+            Named::Area(..) | Named::Block(..) | Named::ToNck(_) => {
+                let (part, begin) = self.place(named)?;
+                let location = Location {
+                    part,
+                    offset: begin / 8,
+                    bit: u8::try_from(begin % 8).ok()?,
+                    width: bits,
+                    format: Format::Unsigned,
+                };
+                if bits == 1 {
+                    return Some(Tested::Bit(location, value != 0));
+                }
+                // A word whose bytes have different writers is no location of the memory.
+                let last = u32::from(bits) - 8;
+                let end = match named {
+                    Named::Block(number, bit) => self.place(Named::Block(number, bit + last))?,
+                    _ => (part, begin + last),
+                };
+                (end == (part, begin + last)).then_some(Tested::Word(location, value))?
+            }
         })
     }
 
@@ -161,7 +185,7 @@ impl LoadedProgram {
         if std::mem::replace(ran, io.cycle) != io.cycle
             && let Some(observed) = &mut cpu.observed
         {
-            observed.seen.clear();
+            observed.begin_cycle();
         }
         let sizes = cpu.program().sizes();
         for number in 0..sizes.counters {
@@ -287,6 +311,10 @@ impl PlcProgram for LoadedProgram {
         let observed = self.cpu.observed.take();
         self.cpu = Cpu::new(self.cpu.shared_program(), self.cpu.options());
         self.cpu.observed = observed;
+    }
+
+    fn prepare_cold_restart(&mut self) {
+        self.cpu.prepare_cold_restart();
     }
 
     fn observe(&mut self) {

@@ -3,6 +3,20 @@
 //! [`compile()`] reads sources and symbol tables and gives a [`Program`], or the findings that prevent it. A [`Cpu`] runs a program on a memory
 //! behind [`Areas`]; [`OwnMemory`] is one for programs without a machine.
 //!
+//! The parts, from front to back:
+//!
+//! | module | is | knows of AWL |
+//! |---|---|---|
+//! | `text` | lexer and parser of AWL, symbol tables, types, constants | its grammar and mnemonics |
+//! | `compile` | statements to instructions: `declare` interfaces and data blocks, `statements` and `calls` code | its statements |
+//! | `instruction`, `program` | the instructions and the tables of a program: the boundary | nothing |
+//! | `engine`, `system`, `coverage` | run, built-in blocks, causes, what ran | nothing: they read instructions, and lines as places |
+//!
+//! A second language, such as SCL, plugs in at two places. Its parser gives blocks with the declarations of `text::syntax::Block`, so that
+//! blocks of both languages call each other; its own statements are another `Body`. Its compiler is a second user of `compile::unit::Unit`:
+//! `Unit::emit` appends an instruction with the present line, `Unit::label` and jumps close loops, local data hold intermediate
+//! results. Engine, causes, coverage and faults then need no change, because they know files, networks and lines only.
+//!
 //! ```
 //! use std::sync::Arc;
 //!

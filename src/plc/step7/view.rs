@@ -4,7 +4,7 @@
 //! A program reads every byte and writes those of the PLC. What it writes to a byte of the control or of the HMI is lost, as on a control,
 //! where the next transfer overwrites it. Inputs that it writes keep the value until the end of the scan.
 
-use crate::image::{AsBytes, Blocks, Memory, Names, Part};
+use crate::image::{AsBytes, Blocks, Bytes, DataBlock, Memory, Names, Part};
 use crate::plc::{Link, NcServices, PlcIo};
 use crate::units::Time;
 
@@ -57,7 +57,8 @@ impl Map {
 
     /// The part and the byte of a byte of a data block.
     pub(super) fn place(&self, number: u16, byte: u32) -> Option<(Part, u32)> {
-        let slot = self.slots.get(usize::from(number))?.checked_sub(1)?;
+        // A block that the program has made has no slot.
+        let slot = self.slots.get(usize::from(number)).copied().unwrap_or(0).saturating_sub(1);
         let Some(slot) = slot.checked_sub(INTERFACE) else { return Some((Part::Block(number), byte)) };
         let byte = self.interface.get(slot as usize)?.get(byte as usize)?;
         let part = match byte.side {
@@ -140,7 +141,13 @@ impl<'a> View<'a> {
     }
 
     fn own(&self, block: OpenBlock) -> Option<&[u8]> {
-        self.blocks.at(block.slot as usize).map(|bytes| &**bytes)
+        self.blocks.at(self.place_of(block)?).map(|bytes| &**bytes)
+    }
+
+    /// The place of a data block in the list: its slot, unless the program has made another block before it.
+    fn place_of(&self, block: OpenBlock) -> Option<usize> {
+        let slot = block.slot as usize;
+        if self.blocks.number_at(slot) == Some(block.number) { Some(slot) } else { self.blocks.place(block.number) }
     }
 
     fn interface(&self, block: OpenBlock) -> Option<&'a [Byte]> {
@@ -169,7 +176,10 @@ impl Areas for View<'_> {
     }
 
     fn block(&self, number: u16) -> Option<OpenBlock> {
-        let slot = self.map.slots.get(usize::from(number))?.checked_sub(1)?;
+        let slot = match self.map.slots.get(usize::from(number)).copied().unwrap_or(0).checked_sub(1) {
+            Some(slot) => slot,
+            None => u32::try_from(self.blocks.place(number)?).ok()?,
+        };
         let block = OpenBlock { number, slot, length: 0 };
         let length = match self.interface(block) {
             Some(bytes) => bytes.len(),
@@ -181,6 +191,14 @@ impl Areas for View<'_> {
     fn link(&mut self) -> Option<Link<'_>> {
         let bytes = (&mut *self.to_nck, self.from_nck, self.hmi);
         Link::of_bytes(bytes, self.blocks, (self.time, self.names), self.nc)
+    }
+
+    fn create(&mut self, number: u16, length: u16) -> bool {
+        if self.block(number).is_some() {
+            return false;
+        }
+        self.blocks.put(DataBlock { number, name: None, bytes: Bytes::from(vec![0; length.into()]) });
+        true
     }
 
     fn is_interface(&self, block: OpenBlock) -> bool {
@@ -207,7 +225,8 @@ impl Areas for View<'_> {
         let Some(bytes) = self.interface(block) else {
             // Forks share a block until it is written to, so one that does not change is left alone.
             if self.own(block)?.get(byte as usize..)?.first_chunk::<N>()? != &value {
-                *self.blocks.at_mut(block.slot as usize)?.get_mut(byte as usize..)?.first_chunk_mut()? = value;
+                let place = self.place_of(block)?;
+                *self.blocks.at_mut(place)?.get_mut(byte as usize..)?.first_chunk_mut()? = value;
             }
             return Some(());
         };

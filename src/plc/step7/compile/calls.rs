@@ -9,9 +9,9 @@ use crate::plc::step7::instruction::{
     BlockKind, BlockName, CallSite, Copy, CopySource, Instance, MakePointer, Number, Op, Operand as Place,
     ParameterSource, Pointed, Space, Target, Width,
 };
-use crate::plc::step7::system::BASIC;
+use crate::plc::step7::system::{BASIC, SYSTEM, System, SystemBlock};
 use crate::plc::step7::text::constants::Constant;
-use crate::plc::step7::text::finding::{At, Fault};
+use crate::plc::step7::text::finding::{At, Fault, FindingKind};
 use crate::plc::step7::text::parser::code;
 use crate::plc::step7::text::syntax::{Operand, Parameter, Statement};
 use crate::plc::step7::text::types::{Field, Section, Type, value_of};
@@ -26,6 +26,10 @@ impl Unit<'_, '_> {
             if let Some(basic) = index.checked_sub(BASIC) {
                 self.tables.basic.insert((name, basic));
             }
+            if let Some(SystemBlock { system: System::Answer(code), name: known, .. }) = SYSTEM.get(index) {
+                let answer = if *code == 0 { "0".to_owned() } else { format!("{code:04X}h") };
+                self.remark(at, format!("{name} {known} does nothing: its RET_VAL is {answer}"));
+            }
             return Ok(Target::System(u16::try_from(index).unwrap_or(u16::MAX)));
         }
         if let Some(&index) = self.tables.index.get(&name) {
@@ -34,12 +38,22 @@ impl Unit<'_, '_> {
         if matches!(name.kind, BlockKind::Sfc | BlockKind::Sfb) {
             if self.ignores_missing {
                 self.tables.missing.insert(name);
+                self.remark(at, format!("{name} is not built in: its calls are left out"));
                 return Ok(Target::Nothing);
             }
             return Err(Fault::unsupported(at, format!("{name} is not built in")));
         }
         self.missing(name, at)?;
+        self.remark(at, format!("{name} is nowhere: its calls are left out"));
         Ok(Target::Nothing)
+    }
+
+    /// What the engine leaves out, listed once.
+    fn remark(&mut self, at: At, what: String) {
+        if self.tables.remarks.iter().all(|(_, known)| known.what != what) {
+            let fault = Fault { at, kind: FindingKind::Unsupported, what, cure: String::new() };
+            self.tables.remarks.push((format!("{}, network {}", self.name, self.line.network), fault));
+        }
     }
 
     pub(in crate::plc::step7) fn call(&mut self, statement: &Statement) -> Done {

@@ -77,6 +77,8 @@ pub struct Compiled {
     pub program: Option<Program>,
     /// The findings, in the order of files and lines.
     pub findings: Vec<Finding>,
+    /// What the program has and the engine leaves out, each once: calls that do nothing, and organization blocks that are never called.
+    pub remarks: Vec<Finding>,
     /// The blocks of the sources, with their symbols and their numbers of statements.
     pub blocks: Vec<(BlockName, Option<String>, usize)>,
     /// The language of each source with statements, by the name of the file.
@@ -131,8 +133,14 @@ pub fn compile(sources: &[Source], settings: &Settings) -> Compiled {
         })
         .collect();
     let findings = findings(faults, sources);
+    let mut remarks = std::mem::take(&mut builder.tables.remarks);
+    let never = list.iter().filter(|(name, ..)| name.kind == BlockKind::Ob && !is_called(name.number));
+    remarks.extend(never.map(|(name, block, _)| {
+        (String::new(), Fault::unsupported(block.at, format!("{name} is compiled and never called")))
+    }));
+    let remarks = self::findings(remarks, sources);
     let program = findings.is_empty().then(|| builder.finish(&known, settings, sources));
-    Compiled { program, findings, blocks, languages }
+    Compiled { program, findings, remarks, blocks, languages }
 }
 
 /// The findings in the order of files and lines; what is not supported is listed once.
@@ -161,6 +169,11 @@ fn findings(faults: Vec<Placed>, sources: &[Source]) -> Vec<Finding> {
             cure: fault.cure,
         })
         .collect()
+}
+
+/// Whether the engine calls an organization block.
+fn is_called(number: u16) -> bool {
+    matches!(number, 1 | 10..=17 | 20..=23 | 30..=38 | 40 | 80 | 100 | 102 | 121 | 122)
 }
 
 /// The FNV-1a hash of the texts.

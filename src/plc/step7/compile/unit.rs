@@ -34,6 +34,8 @@ pub(in crate::plc::step7) struct Tables {
     pub(in crate::plc::step7) basic: std::collections::BTreeSet<(BlockName, usize)>,
     /// Blocks that are called and nowhere.
     pub(in crate::plc::step7) missing: std::collections::BTreeSet<BlockName>,
+    /// What the program has and the engine leaves out, each once, with block and network.
+    pub(in crate::plc::step7) remarks: Vec<(String, Fault)>,
 }
 
 /// What an operand names.

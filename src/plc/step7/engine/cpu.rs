@@ -7,9 +7,11 @@ use serde::{Deserialize, Serialize};
 use crate::plc::step7::basic_program::BasicState;
 use crate::plc::step7::instruction::Logic;
 use crate::plc::step7::program::Program;
+use crate::plc::step7::system::HoursMeter;
 
 use super::arithmetic::digits;
 use super::fault::Stop;
+use super::interrupts::{Interrupts, present};
 use super::memory::OpenBlock;
 use super::observed::Observed;
 use super::registers::Registers;
@@ -26,8 +28,8 @@ pub struct CpuOptions {
     pub call_depth: u16,
     /// The instructions of a scan after which its cycle monitoring time counts as exceeded.
     pub instructions_per_scan: u64,
-    /// The period of OB35, in ns.
-    pub ob35_nanos: i64,
+    /// The periods of the cyclic interrupts OB30 to OB38, in ns.
+    pub cyclic_nanos: [i64; 9],
     /// The date at time 0, in days since 1990-1-1.
     pub first_day: u32,
 }
@@ -40,7 +42,8 @@ impl Default for CpuOptions {
             local_data: 1024,
             call_depth: 16,
             instructions_per_scan: 10_000_000,
-            ob35_nanos: 100_000_000,
+            // 5 s, 2 s, 1 s, 500 ms, 200 ms, 100 ms, 50 ms, 20 ms, 10 ms.
+            cyclic_nanos: [5_000, 2_000, 1_000, 500, 200, 100, 50, 20, 10].map(|millis| millis * 1_000_000),
             first_day: 12_418,
         }
     }
@@ -63,11 +66,13 @@ pub struct CpuState {
     pub(in crate::plc::step7) cycle: i64,
     pub(in crate::plc::step7) shortest: i64,
     pub(in crate::plc::step7) longest: i64,
-    pub(in crate::plc::step7) next_ob35: i64,
+    /// Time-of-day, time-delay and cyclic interrupts.
+    pub(in crate::plc::step7) interrupts: Interrupts,
+    pub(in crate::plc::step7) hours: [HoursMeter; 8],
+    /// The next start is a cold restart.
+    pub(in crate::plc::step7) is_cold: bool,
     /// SFC 41 calls that were not undone.
     pub(in crate::plc::step7) delayed: u16,
-    /// SFC 39 with mode 0 or 2: OB35 is discarded.
-    pub(in crate::plc::step7) is_disabled: bool,
     /// Added to the virtual time for the clock, in ms, by SFC 0.
     pub(in crate::plc::step7) clock_shift: i64,
     /// The start information of the last start OB.
@@ -122,6 +127,14 @@ pub(in crate::plc::step7) struct Frame {
     pub(in crate::plc::step7) mcr: McrState,
 }
 
+/// A filter of faults: a bit for each event, counted from its first number.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::plc::step7) struct Mask {
+    pub(in crate::plc::step7) masked: u32,
+    /// Those that came while they were masked.
+    pub(in crate::plc::step7) seen: u32,
+}
+
 /// What exists while a block runs; empty between two scans.
 #[derive(Debug, Default)]
 pub(in crate::plc::step7) struct Work {
@@ -137,6 +150,10 @@ pub(in crate::plc::step7) struct Work {
     pub(in crate::plc::step7) is_late: bool,
     /// The instruction that runs, or ran last.
     pub(in crate::plc::step7) pc: u32,
+    /// Programming errors and access errors that do not call OB121 and OB122.
+    pub(in crate::plc::step7) masks: [Mask; 2],
+    /// What ACCU1 has after OB121 or OB122 (SFC 44).
+    pub(in crate::plc::step7) replacement: Option<u32>,
 }
 
 /// A CPU with its program. The memory is not a part of it.
@@ -146,6 +163,8 @@ pub struct Cpu {
     pub(in crate::plc::step7) options: CpuOptions,
     pub(in crate::plc::step7) state: CpuState,
     pub(in crate::plc::step7) work: Work,
+    /// A bit for each block of the program that time can start.
+    pub(in crate::plc::step7) interrupts: u64,
     /// What is observed, if it is; no part of the state.
     pub(in crate::plc::step7) observed: Option<Box<Observed>>,
 }
@@ -178,9 +197,10 @@ impl Cpu {
             cycle: 0,
             shortest: 0,
             longest: 0,
-            next_ob35: 0,
+            interrupts: Interrupts::default(),
+            hours: [HoursMeter::default(); 8],
+            is_cold: false,
             delayed: 0,
-            is_disabled: false,
             clock_shift: 0,
             start_information: [0; 20],
             basic: BasicState::default(),
@@ -191,7 +211,8 @@ impl Cpu {
             nests: Vec::with_capacity(depth * 8),
             ..Work::default()
         };
-        Self { program, options, state, work, observed: None }
+        let interrupts = present(&program);
+        Self { program, options, state, work, interrupts, observed: None }
     }
 
     /// The state, to save it.

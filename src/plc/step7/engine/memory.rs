@@ -40,6 +40,11 @@ pub trait Areas {
     /// A data block by its number; `None` if it does not exist.
     fn block(&self, number: u16) -> Option<OpenBlock>;
 
+    /// Makes a data block of zeros; `false` if the memory has no room, or has the block already.
+    fn create(&mut self, _number: u16, _length: u16) -> bool {
+        false
+    }
+
     /// Whether a data block is one of an interface with a control.
     fn is_interface(&self, _block: OpenBlock) -> bool {
         false
@@ -129,6 +134,18 @@ impl Areas for OwnMemory {
         let index = self.index(number)?;
         let length = u32::try_from(self.blocks.get(index)?.len()).ok()?;
         Some(OpenBlock { number, slot: u32::try_from(index).ok()?, length })
+    }
+
+    fn create(&mut self, number: u16, length: u16) -> bool {
+        if self.index(number).is_some() || self.blocks.len() == usize::from(u16::MAX) {
+            return false;
+        }
+        self.blocks.push(vec![0; length.into()]);
+        let mut slots = self.slots.to_vec();
+        slots.resize(slots.len().max(usize::from(number) + 1), 0);
+        slots[usize::from(number)] = u16::try_from(self.blocks.len()).unwrap_or(u16::MAX);
+        self.slots = slots.into();
+        true
     }
 
     fn read<const N: usize>(&self, block: OpenBlock, byte: u32) -> Option<[u8; N]> {

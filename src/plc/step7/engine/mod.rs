@@ -5,6 +5,8 @@ mod arithmetic;
 mod calls;
 mod cpu;
 mod fault;
+mod flow;
+mod interrupts;
 mod memory;
 mod observe;
 mod observed;
@@ -22,5 +24,6 @@ pub use memory::{Area, Areas, OpenBlock, OwnMemory};
 pub use registers::{Registers, Status};
 
 pub(in crate::plc::step7) use access::{Spot, Where};
+pub(in crate::plc::step7) use interrupts::{Delay, Period, TimeOfDay};
 pub(in crate::plc::step7) use observe::{Kind, kind};
-pub(in crate::plc::step7) use observed::{NO, Named, Observed, RAN, Seen, YES};
+pub(in crate::plc::step7) use observed::{NO, Named, Observed, RAN, Read, Seen, YES};

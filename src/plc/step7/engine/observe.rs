@@ -10,8 +10,9 @@ use crate::plc::step7::system::{SYSTEM, System};
 
 use super::access::{Spot, Where};
 use super::cpu::Cpu;
+use super::flow::width_of;
 use super::memory::{Area, Areas};
-use super::observed::{CHANGES, Clock, NO, Named, RAN, Seen, YES};
+use super::observed::{CHANGES, Clock, NO, Named, RAN, Read, Seen, WORDS, YES};
 
 /// The bit address of Q in the instance of an IEC timer; IN is its first bit.
 const Q: u32 = 6 * 8;
@@ -27,8 +28,13 @@ enum Writes {
 }
 
 impl Cpu {
-    /// Before an instruction: if it will change memory, remembers why.
+    /// Before an instruction: if it will change memory, remembers why; then follows the values.
     pub(super) fn foresee<A: Areas>(&mut self, areas: &A, op: Op, pc: u32) {
+        self.remember(areas, op, pc);
+        self.follow(areas, op, pc);
+    }
+
+    fn remember<A: Areas>(&mut self, areas: &A, op: Op, pc: u32) {
         let db = self.state.registers.db;
         if let Some(observed) = &mut self.observed {
             observed.pc = pc;
@@ -47,40 +53,37 @@ impl Cpu {
         };
         self.state.registers.db = db;
         let Some(writes) = writes else { return };
+        let mut is_word = false;
         let (place, bits, value) = match writes {
             Writes::Bit(spot, value) => {
                 if self.read_bit(areas, spot).ok() == Some(value) && !has_all {
                     return;
                 }
-                (self.named(spot), 1, value)
+                (self.named(spot), 1, value.into())
             }
-            // Words of flags and data blocks change in every scan; those of the interface are signals.
             Writes::Bytes(spot, bits, value) => {
-                let width = match bits {
-                    8 => Width::Byte,
-                    16 => Width::Word,
-                    _ => Width::Double,
-                };
-                if !matches!(spot.at, Where::Block(block) if areas.is_interface(block))
-                    || self.read(areas, spot, width).ok() == Some(value)
-                {
+                let width = width_of(bits).unwrap_or(Width::Double);
+                if self.read(areas, spot, width).ok() == Some(value) && !has_all {
                     return;
                 }
-                (self.named(spot), bits, false)
+                is_word = !matches!(spot.at, Where::Block(block) if areas.is_interface(block));
+                (self.named(spot), bits, value)
             }
             // For a reader of every write: whether the timer is started.
-            Writes::Timer(number) => (Some(Named::Timer(number)), 16, self.state.registers.status.rlo),
-            Writes::Counter(number) => (Some(Named::Counter(number)), 16, false),
+            Writes::Timer(number) => (Some(Named::Timer(number)), 16, self.state.registers.status.rlo.into()),
+            Writes::Counter(number) => (Some(Named::Counter(number)), 16, 0),
         };
         let Some(place) = place else { return };
-        let mut tested = ArrayVec::new();
-        if bits == 1 || matches!(place, Named::Timer(_) | Named::Counter(_)) {
-            self.reasons(areas, op, pc, &mut tested);
+        let Some(observed) = &mut self.observed else { return };
+        let has_room = observed.seen.len() < CHANGES && (!is_word || observed.words < WORDS);
+        if !has_room && !has_all {
+            return;
         }
+        observed.words += usize::from(is_word);
+        let mut tested = ArrayVec::new();
+        self.reasons(areas, op, pc, &mut tested);
         self.state.registers.db = db;
-        if let Some(observed) = &mut self.observed
-            && (observed.seen.len() < CHANGES || has_all)
-        {
+        if let Some(observed) = &mut self.observed {
             observed.seen.push(Seen { pc, place, bits, value, tested });
         }
     }
@@ -115,11 +118,11 @@ impl Cpu {
         }
         let mut tested = ArrayVec::new();
         if input == value && (value || !is_pulse) {
-            tested.push((Named::Block(block.number, begin), input));
+            tested.push(Read::bit(Named::Block(block.number, begin), input));
         }
         let place = Named::Block(block.number, begin + Q);
         if let Some(observed) = &mut self.observed {
-            observed.seen.push(Seen { pc, place, bits: 1, value, tested });
+            observed.seen.push(Seen { pc, place, bits: 1, value: value.into(), tested });
         }
     }
 
@@ -130,7 +133,7 @@ impl Cpu {
         for (byte, (before, now)) in (0_u32..).zip(before.iter().zip(now)) {
             for bit in (0..8).filter(|bit| (before ^ now) >> bit & 1 == 1) {
                 if observed.seen.len() < CHANGES || observed.has_all_writes {
-                    let (place, value) = (Named::ToNck(byte * 8 + bit), now >> bit & 1 == 1);
+                    let (place, value) = (Named::ToNck(byte * 8 + bit), u32::from(now >> bit & 1));
                     observed.seen.push(Seen { pc, place, bits: 1, value, tested: ArrayVec::new() });
                 }
             }
@@ -173,18 +176,17 @@ impl Cpu {
             }
             Op::Copy(index) => {
                 let copy = self.program.copies[index as usize];
-                if copy.bits != 1 {
-                    return None;
-                }
+                let width = if copy.bits == 1 { Width::Bit } else { width_of(copy.bits)? };
                 let value = match copy.from {
                     CopySource::Operand(operand) => {
                         let from = self.spot(areas, operand).ok()?;
-                        self.read_bit(areas, from).ok()?
+                        self.read(areas, from, width).ok()?
                     }
-                    CopySource::Constant(value) => value != 0,
+                    CopySource::Constant(value) => value & u32::MAX >> (32 - copy.bits),
                     CopySource::Number(_) => return None,
                 };
-                Some(Writes::Bit(self.spot(areas, copy.to).ok()?, value))
+                let to = self.spot(areas, copy.to).ok()?;
+                Some(if copy.bits == 1 { Writes::Bit(to, value != 0) } else { Writes::Bytes(to, copy.bits, value) })
             }
             Op::StartTimer(kind, number) => {
                 let (number, now) = (self.number(areas, number).ok()?, self.work.now);
@@ -236,6 +238,9 @@ impl Cpu {
         }
         let sta = self.state.registers.status.sta;
         let Some(observed) = &mut self.observed else { return };
+        if next != pc + 1 {
+            observed.flow.landed = next;
+        }
         let Some(mark) = observed.marks.get_mut(pc as usize) else { return };
         *mark |= RAN
             | match kind(op) {

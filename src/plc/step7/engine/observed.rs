@@ -1,11 +1,15 @@
-//! What an observed CPU remembers, as plain data: what ran, and the changes of a cycle with the operands that made them.
+//! What an observed CPU remembers, as plain data: what ran, and the changes of a cycle with the operands that made
+//! them.
 
 use arrayvec::ArrayVec;
 
+use super::flow::Flow;
 use super::memory::{Area, OpenBlock};
 
 /// The changes that are kept of one cycle.
 pub(in crate::plc::step7) const CHANGES: usize = 512;
+/// Of these, the words outside of an interface, which can change in every scan.
+pub(in crate::plc::step7) const WORDS: usize = 128;
 /// The operands that are kept of one change.
 pub(in crate::plc::step7) const OPERANDS: usize = 8;
 
@@ -28,6 +32,21 @@ pub(in crate::plc::step7) enum Named {
     ToNck(u32),
 }
 
+/// An operand that was read, with the value that it had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::plc::step7) struct Read {
+    pub(in crate::plc::step7) named: Named,
+    /// 1, 8, 16 or 32. Of a timer or a counter 1 is its status, 16 its value as it was loaded.
+    pub(in crate::plc::step7) bits: u8,
+    pub(in crate::plc::step7) value: u32,
+}
+
+impl Read {
+    pub(in crate::plc::step7) const fn bit(named: Named, value: bool) -> Self {
+        Self { named, bits: 1, value: value as u32 }
+    }
+}
+
 /// A change of the memory, and the operands that made it.
 #[derive(Clone, Debug)]
 pub(in crate::plc::step7) struct Seen {
@@ -35,9 +54,9 @@ pub(in crate::plc::step7) struct Seen {
     pub(in crate::plc::step7) place: Named,
     /// The bits that were written from that place on.
     pub(in crate::plc::step7) bits: u32,
-    /// The new value of a bit; 0 for a wider operand.
-    pub(in crate::plc::step7) value: bool,
-    pub(in crate::plc::step7) tested: ArrayVec<(Named, bool), OPERANDS>,
+    /// The new value; of a timer whether it is started.
+    pub(in crate::plc::step7) value: u32,
+    pub(in crate::plc::step7) tested: ArrayVec<Read, OPERANDS>,
 }
 
 /// What was observed of a program.
@@ -47,12 +66,16 @@ pub(in crate::plc::step7) struct Observed {
     pub(in crate::plc::step7) marks: Vec<u8>,
     /// The changes of the present cycle.
     pub(in crate::plc::step7) seen: Vec<Seen>,
+    /// How many of them are words outside of an interface.
+    pub(in crate::plc::step7) words: usize,
     /// Bits that are written with the value that they have count, too, and those that are not set or not reset.
     pub(in crate::plc::step7) has_all_writes: bool,
     /// The instruction that runs.
     pub(in crate::plc::step7) pc: u32,
     /// The IEC timer that is being called.
     pub(in crate::plc::step7) clock: Option<Clock>,
+    /// Where the values in the accumulators come from.
+    pub(in crate::plc::step7) flow: Flow,
 }
 
 /// An IEC timer before its call: its instance, and whether Q was set.
@@ -69,9 +92,17 @@ impl Observed {
         Self {
             marks: vec![0; instructions],
             seen: Vec::with_capacity(CHANGES),
+            words: 0,
             has_all_writes: false,
             pc: 0,
             clock: None,
+            flow: Flow::default(),
         }
+    }
+
+    /// A cycle begins: its changes are still to come.
+    pub(in crate::plc::step7) fn begin_cycle(&mut self) {
+        self.seen.clear();
+        self.words = 0;
     }
 }

@@ -1,37 +1,48 @@
-//! Organization blocks: start-up, the cyclic program, the cyclic interrupt, and the blocks that faults call.
+//! Organization blocks: start-up, the cyclic program, and the blocks that faults call.
 
 use crate::plc::step7::instruction::BlockKind;
 use crate::plc::step7::text::constants::date_time_of;
 
-use super::cpu::{Cpu, McrState};
+use super::cpu::{Cpu, Mask, McrState};
 use super::fault::{Fault, Stop};
+use super::flow::Flow;
+use super::interrupts::{DAY_MILLIS, Interrupts};
 use super::memory::{Areas, OpenBlock};
 use super::registers::Status;
 
-const DAY_MILLIS: i64 = 86_400_000;
 const MILLI_NANOS: i64 = 1_000_000;
 
 /// The start information of an organization block: its first 20 bytes of local data.
 type Information = [u8; 20];
 
 impl Cpu {
-    /// Power on: OB100. Timers, counters and registers begin from nothing; the memory is the caller's.
+    /// Power on: OB100, or after [`Cpu::prepare_cold_restart`] OB102 if the program has it. Timers, counters and registers begin from nothing;
+    /// hours meters keep their values; the memory is the caller's.
     ///
     /// # Errors
     /// The program stopped the PLC.
     pub fn startup<A: Areas>(&mut self, areas: &mut A, now: i64) -> Result<(), Box<Stop>> {
         let fresh = Self::new(std::sync::Arc::clone(&self.program), self.options);
-        self.state = fresh.state;
-        self.state.next_ob35 = now.saturating_add(self.options.ob35_nanos);
+        let before = std::mem::replace(&mut self.state, fresh.state);
+        self.state.hours = before.hours.map(|meter| meter.stopped(before.last_scan));
+        self.state.interrupts = Interrupts::begin(now, &self.options.cyclic_nanos);
         self.begin(now);
-        let mut information = self.information(0x13, 0x82, 27, 100);
+        // The events: warm restart 82h, cold restart 85h.
+        let is_cold = before.is_cold && self.program.find(BlockKind::Ob, 102).is_some();
+        let (event, number) = if is_cold { (0x85, 102) } else { (0x82, 100) };
+        let mut information = self.information(0x13, event, 27, number);
         information[12..].copy_from_slice(&self.date_and_time());
         self.state.start_information = information;
-        let done = self.organization_block(areas, 100, &information);
+        let done = self.organization_block(areas, number.into(), &information);
         self.ended(done)
     }
 
-    /// A scan at a time in ns: OB35 if it is due, then OB1.
+    /// The next start is a cold restart.
+    pub fn prepare_cold_restart(&mut self) {
+        self.state.is_cold = true;
+    }
+
+    /// A scan at a time in ns: the interrupts that are due, then OB1.
     ///
     /// # Errors
     /// The program stopped the PLC, now or in an earlier scan.
@@ -41,7 +52,7 @@ impl Cpu {
         }
         self.begin(now);
         self.measure(now);
-        self.cyclic_interrupt(areas, now)?;
+        self.interrupts(areas, now)?;
         let mut information = self.information(0x11, if self.state.scans == 0 { 1 } else { 3 }, 1, 1);
         let times = [self.state.cycle, self.state.shortest, self.state.longest];
         for (place, time) in [6, 8, 10].into_iter().zip(times) {
@@ -53,7 +64,7 @@ impl Cpu {
         self.ended(done)
     }
 
-    /// Between two scans, at a time in ns: OB35 if it is due.
+    /// Between two scans, at a time in ns: the interrupts that are due.
     ///
     /// # Errors
     /// The program stopped the PLC, now or in an earlier scan.
@@ -62,35 +73,7 @@ impl Cpu {
             return Err(Box::new(stop.clone()));
         }
         self.begin(now);
-        self.cyclic_interrupt(areas, now)
-    }
-
-    /// Whether the program has a block that runs between two scans.
-    #[must_use]
-    pub fn has_interrupts(&self) -> bool {
-        self.program.find(BlockKind::Ob, 35).is_some()
-    }
-
-    /// Whether [`Cpu::interrupt`] would run a block at a time in ns.
-    #[must_use]
-    pub fn interrupt_is_due(&self, now: i64) -> bool {
-        now >= self.state.next_ob35 && self.has_interrupts()
-    }
-
-    fn cyclic_interrupt<A: Areas>(&mut self, areas: &mut A, now: i64) -> Result<(), Box<Stop>> {
-        if now >= self.state.next_ob35 {
-            let period = self.options.ob35_nanos.max(1);
-            let late = (now - self.state.next_ob35) / period;
-            self.state.next_ob35 = self.state.next_ob35.saturating_add((late + 1).saturating_mul(period));
-            if !self.state.is_disabled {
-                let mut information = self.information(0x11, 0x36, 12, 35);
-                let millis = i16::try_from(period / MILLI_NANOS).unwrap_or(i16::MAX);
-                information[10..12].copy_from_slice(&millis.to_be_bytes());
-                let done = self.organization_block(areas, 35, &information);
-                self.ended(done)?;
-            }
-        }
-        Ok(())
+        self.interrupts(areas, now)
     }
 
     fn begin(&mut self, now: i64) {
@@ -119,7 +102,7 @@ impl Cpu {
         self.state.last_scan = now;
     }
 
-    fn information(&self, class: u8, event: u8, priority: u8, number: u8) -> Information {
+    pub(super) fn information(&self, class: u8, event: u8, priority: u8, number: u8) -> Information {
         let mut information = [0; 20];
         information[..4].copy_from_slice(&[class, event, priority, number]);
         information[12..].copy_from_slice(&self.date_and_time());
@@ -135,12 +118,17 @@ impl Cpu {
 
     /// The ms since 1990-1-1 of the clock.
     pub(in crate::plc::step7) fn clock_millis(&self) -> i64 {
+        self.clock_at(self.work.now)
+    }
+
+    /// The same at a time in ns.
+    pub(super) fn clock_at(&self, now: i64) -> i64 {
         let first = i64::from(self.options.first_day) * DAY_MILLIS;
-        (first + self.work.now / MILLI_NANOS).saturating_add(self.state.clock_shift).max(0)
+        (first + now / MILLI_NANOS).saturating_add(self.state.clock_shift).max(0)
     }
 
     /// Runs an organization block if the program has it.
-    fn organization_block<A: Areas>(
+    pub(super) fn organization_block<A: Areas>(
         &mut self,
         areas: &mut A,
         number: u16,
@@ -155,6 +143,12 @@ impl Cpu {
         self.state.registers.db = OpenBlock::default();
         self.state.registers.di = OpenBlock::default();
         self.state.registers.status = Status::default();
+        if let Some(observed) = &mut self.observed {
+            observed.flow = Flow::begin(start);
+        }
+        if self.work.frames.is_empty() {
+            self.work.masks = [Mask::default(); 2];
+        }
         let first = u32::try_from(self.work.parameters.len()).unwrap_or(u32::MAX);
         let nothing = (OpenBlock::default(), OpenBlock::default(), None);
         self.push(local, (first, 0), u32::MAX, nothing)?;
@@ -170,7 +164,14 @@ impl Cpu {
     /// A fault: OB121 or OB122 runs if the program has it; else the PLC stops.
     pub(in crate::plc::step7) fn report<A: Areas>(&mut self, areas: &mut A, fault: Fault) -> Result<(), Fault> {
         let Some(code) = fault.code() else { return Err(fault) };
-        let number: u8 = if matches!(fault, Fault::Peripheral(_)) { 122 } else { 121 };
+        let is_access = matches!(fault, Fault::Peripheral(_));
+        let mask = &mut self.work.masks[usize::from(is_access)];
+        let bit = 1_u32 << (code - if is_access { 0x40 } else { 0x20 });
+        if mask.masked & bit != 0 {
+            mask.seen |= bit;
+            return Ok(());
+        }
+        let number: u8 = if is_access { 122 } else { 121 };
         if self.work.in_error || self.program.find(BlockKind::Ob, u16::from(number)).is_none() {
             return Err(fault);
         }
@@ -214,17 +215,27 @@ impl Cpu {
     /// Runs OB80, OB121 or OB122 within another block, which then goes on as it was.
     fn error_block<A: Areas>(&mut self, areas: &mut A, information: &Information) -> Result<(), Fault> {
         let (registers, mcr, pc, delayed) = (self.state.registers, self.work.mcr, self.work.pc, self.state.delayed);
+        let flow = self.observed.as_ref().map(|observed| observed.flow.clone());
         self.work.in_error = true;
         self.organization_block(areas, u16::from(information[3]), information)?;
         self.work.in_error = false;
+        if let (Some(observed), Some(flow)) = (&mut self.observed, flow) {
+            observed.flow = flow;
+        }
         self.state.registers = registers;
+        if let Some(value) = self.work.replacement.take() {
+            self.state.registers.accu[0] = value;
+            if let Some(observed) = &mut self.observed {
+                observed.flow.forget_accu1();
+            }
+        }
         self.state.delayed = delayed;
         (self.work.mcr, self.work.pc) = (mcr, pc);
         Ok(())
     }
 
     /// Keeps the place at which the PLC stopped.
-    fn ended(&mut self, done: Result<(), Fault>) -> Result<(), Box<Stop>> {
+    pub(super) fn ended(&mut self, done: Result<(), Fault>) -> Result<(), Box<Stop>> {
         let Err(fault) = done else { return Ok(()) };
         let line = self.program.lines.get(self.work.pc as usize).copied().unwrap_or_default();
         let stop = Stop {

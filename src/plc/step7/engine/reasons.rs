@@ -6,8 +6,9 @@ use arrayvec::ArrayVec;
 use crate::plc::step7::instruction::{CopySource, Jump, Logic, Number, Op, Operand, Space};
 
 use super::cpu::Cpu;
+use super::flow::width_of;
 use super::memory::{Areas, OpenBlock};
-use super::observed::{Named, OPERANDS};
+use super::observed::{Named, OPERANDS, Read};
 
 /// The nodes of the tree of a logic string.
 const NODES: usize = 96;
@@ -22,7 +23,9 @@ type Index = u8;
 enum Node {
     /// An operand and its value; without a name it is local data or unknown.
     Leaf(Option<Named>, bool),
-    /// A value that cannot be read again: a status bit, a comparison, an edge. It is what fits.
+    /// A comparison: its number in the tree, and its result.
+    Compared(Index, bool),
+    /// A value that cannot be read again: a status bit, an edge. It is what fits.
     Open,
     /// An edge: its marker, whose value was tested, and the logic before it.
     Edge(Option<Named>, bool, Index),
@@ -36,6 +39,8 @@ enum Node {
 #[derive(Debug, Default)]
 struct Tree {
     nodes: ArrayVec<Node, NODES>,
+    /// What the comparisons compared.
+    compared: Vec<ArrayVec<Read, OPERANDS>>,
     /// How many values are open.
     open: u8,
 }
@@ -88,7 +93,7 @@ impl Tree {
     /// The value of a node, with this value for those that are open.
     fn value(&self, index: Index, open: bool) -> bool {
         match self.nodes[usize::from(index)] {
-            Node::Leaf(_, value) => value,
+            Node::Leaf(_, value) | Node::Compared(_, value) => value,
             Node::Open | Node::Edge(..) => open,
             Node::Not(x) => !self.value(x, open),
             Node::And(x, y) => self.value(x, open) && self.value(y, open),
@@ -98,16 +103,22 @@ impl Tree {
     }
 
     /// The leaves that decide the value of a node.
-    fn decisive(&self, index: Index, open: bool, tested: &mut ArrayVec<(Named, bool), OPERANDS>) {
+    fn decisive(&self, index: Index, open: bool, tested: &mut ArrayVec<Read, OPERANDS>) {
         let mut keep = |named: Option<Named>, value: bool| {
-            if let Some(named) = named
-                && !tested.contains(&(named, value))
-            {
-                let _ = tested.try_push((named, value));
+            let read = named.map(|named| Read::bit(named, value));
+            if let Some(read) = read.filter(|read| !tested.contains(read)) {
+                let _ = tested.try_push(read);
             }
         };
         match self.nodes[usize::from(index)] {
             Node::Leaf(named, value) => keep(named, value),
+            Node::Compared(number, _) => {
+                for read in &self.compared[usize::from(number)] {
+                    if !tested.contains(read) {
+                        let _ = tested.try_push(*read);
+                    }
+                }
+            }
             Node::Open => {}
             Node::Edge(marker, value, inner) => {
                 // Where there was no edge although its logic is as it must be, the marker decided.
@@ -137,27 +148,35 @@ impl Tree {
 
 impl Cpu {
     /// The operands that made the RLO before an instruction that writes, or the operand that it copies.
-    pub(super) fn reasons<A: Areas>(
-        &mut self,
-        areas: &A,
-        op: Op,
-        pc: u32,
-        tested: &mut ArrayVec<(Named, bool), OPERANDS>,
-    ) {
-        if let Op::Copy(index) = op {
+    pub(super) fn reasons<A: Areas>(&mut self, areas: &A, op: Op, pc: u32, tested: &mut ArrayVec<Read, OPERANDS>) {
+        if let Op::Copy(index) = op
+            && width_of(self.program.copies[index as usize].bits).is_none()
+        {
             if let CopySource::Operand(operand) = self.program.copies[index as usize].from
                 && let Ok(spot) = self.spot(areas, operand)
                 && let (Some(named), Ok(value)) = (self.named(spot), self.read_bit(areas, spot))
             {
-                tested.push((named, value));
+                tested.push(Read::bit(named, value));
             }
             return;
         }
+        if let Op::Transfer(..) | Op::Copy(_) = op {
+            let origin = self.transferred(areas, op);
+            let Some(reads) = origin.reads() else { return };
+            tested.extend(reads.iter().copied());
+            if !reads.is_empty() || matches!(op, Op::Copy(_)) {
+                return;
+            }
+        }
         let mut tree = Tree::default();
-        let (root, rlo) = match self.string(areas, pc, &mut tree, 0) {
+        let string = if matches!(op, Op::Transfer(..)) { None } else { self.string(areas, pc, &mut tree, 0) };
+        let (root, rlo) = match string {
             Some(root) => (root, self.state.registers.status.rlo),
-            // After SET or CLR the statement runs because of the jump before it.
-            None => match self.guard(pc).and_then(|(jump, rlo)| Some((self.string(areas, jump, &mut tree, 0)?, rlo))) {
+            // After SET or CLR, and with a constant, the statement runs because of the jump before it.
+            None => match self
+                .guard(pc, matches!(op, Op::Transfer(..)))
+                .and_then(|(jump, rlo)| Some((self.string(areas, jump, &mut tree, 0)?, rlo)))
+            {
                 Some(guarded) => guarded,
                 None => return,
             },
@@ -173,20 +192,24 @@ impl Cpu {
         }
     }
 
-    /// The conditional jump over an instruction behind SET or CLR, and the RLO with which it was not taken.
-    fn guard(&self, pc: u32) -> Option<(u32, bool)> {
-        let block = self.program.block_at(pc)?.start;
-        let mut has_constant = false;
-        for at in (block..pc).rev().take(LONGEST as usize) {
+    /// The conditional jump over an instruction behind SET or CLR, or with a constant, and the RLO with which it was not taken.
+    fn guard(&self, pc: u32, mut has_constant: bool) -> Option<(u32, bool)> {
+        let begin = self.program.block_at(pc)?.start.max(self.landed());
+        for at in (begin..pc).rev().take(LONGEST as usize) {
             match self.program.code[at as usize] {
-                Op::SetRlo(_) => has_constant = true,
+                Op::SetRlo(_) | Op::LoadConstant(_) => has_constant = true,
                 Op::Jump(Jump::IfNotRlo, target) if has_constant && target > pc => return Some((at, true)),
                 Op::Jump(Jump::IfRlo, target) if has_constant && target > pc => return Some((at, false)),
-                Op::Assign(_) | Op::Set(_) | Op::Reset(_) | Op::Nothing => {}
+                Op::Assign(_) | Op::Set(_) | Op::Reset(_) | Op::Transfer(..) | Op::Nothing => {}
                 _ => return None,
             }
         }
         None
+    }
+
+    /// The instruction since which the program ran in order.
+    fn landed(&self) -> u32 {
+        self.observed.as_ref().map_or(0, |observed| observed.flow.landed)
     }
 
     /// The tree of the logic string that ends before an instruction.
@@ -222,7 +245,8 @@ impl Cpu {
             }
             start -= 1;
         }
-        if depth_of_brackets != 0 || !is_begun {
+        // A string that a jump entered in its middle did not run as it stands.
+        if depth_of_brackets != 0 || !is_begun || start < self.landed() {
             return None;
         }
         self.build(areas, (start, last, end), tree, depth)
@@ -270,7 +294,8 @@ impl Cpu {
                     continue;
                 }
                 Op::Compare(..) => {
-                    state = Term { before: None, term: Some(tree.add(Node::Open)?) };
+                    let node = self.compared(at, tree);
+                    state = Term { before: None, term: Some(tree.add(node)?) };
                     continue;
                 }
                 Op::Logic(logic, operand) => {
@@ -299,6 +324,17 @@ impl Cpu {
             state = tree.combine(state, leaf.0, leaf.1)?;
         }
         if nests.is_empty() { tree.result(state) } else { None }
+    }
+
+    /// A comparison, with its operands if they are known.
+    fn compared(&self, at: u32, tree: &mut Tree) -> Node {
+        let flow = self.observed.as_ref().map(|observed| &observed.flow);
+        let Some((origin, result)) = flow.and_then(|flow| flow.comparison(at)) else { return Node::Open };
+        let (Some(reads), Ok(number)) = (origin.reads(), Index::try_from(tree.compared.len())) else {
+            return Node::Open;
+        };
+        tree.compared.push(reads.iter().copied().collect());
+        Node::Compared(number, result)
     }
 
     /// A leaf, or for a local bit the string that wrote it.

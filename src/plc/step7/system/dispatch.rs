@@ -69,14 +69,16 @@ impl Cpu {
                 // 80B1h: the data block does not exist.
                 self.result(areas, 1, if block.is_some() { 0 } else { 0x80B1 })
             }
-            System::Accepted => self.result(areas, 4, 0),
-            System::NoModule => {
-                // 8090h: no module has this address. BUSY follows RET_VAL.
-                let index =
-                    if SYSTEM[usize::from(index)].block.is_some_and(|block| block.number == 58) { 5 } else { 4 };
-                self.set_argument(areas, index + 1, Width::Bit, 0)?;
-                self.result(areas, index, 0x8090)
-            }
+            System::Answer(code) => self.answer(areas, index, code),
+            System::CreateBlock => self.create_block(areas),
+            what @ (System::SetHours | System::ControlHours | System::ReadHours) => self.hours(areas, what),
+            what @ (System::SetTimeOfDay
+            | System::CancelTimeOfDay
+            | System::ActivateTimeOfDay
+            | System::QueryTimeOfDay) => self.time_of_day(areas, what),
+            what @ (System::StartDelay | System::CancelDelay | System::QueryDelay) => self.time_delay(areas, what),
+            what @ (System::MaskFaults | System::UnmaskFaults | System::ReadFaults) => self.masks(areas, what),
+            System::ReplaceValue => self.replace_value(areas),
             library => self.library(areas, library),
         }
     }
@@ -161,27 +163,6 @@ impl Cpu {
         self.write_element(areas, 1, running)?;
         self.write_element(areas, 2, started)?;
         self.result(areas, 0, 0)
-    }
-
-    /// SFC 39 and 40. Modes 0 (all), 1 (a class) and 2 (one OB) reach OB35, the only interrupt.
-    fn disable<A: Areas>(&mut self, areas: &mut A, is_disabled: bool) -> Result<(), Fault> {
-        let mode = self.argument(areas, 0, Width::Byte)?;
-        let number = self.argument(areas, 1, Width::Word)?;
-        let result = match mode {
-            0 => {
-                self.state.is_disabled = is_disabled;
-                0
-            }
-            1 | 2 => {
-                if (mode == 1 && number == 30) || number == 35 {
-                    self.state.is_disabled = is_disabled;
-                }
-                0
-            }
-            // 8091h: a wrong MODE.
-            _ => 0x8091,
-        };
-        self.result(areas, 2, result)
     }
 }
 

@@ -75,11 +75,32 @@ pub(in crate::plc::step7) enum System {
     Encode,
     Decode,
     TestBlock,
-    Accepted,
-    NoModule,
+    /// It does nothing and has this RET_VAL.
+    Answer(u16),
+    SetHours,
+    ControlHours,
+    ReadHours,
+    CreateBlock,
+    SetTimeOfDay,
+    CancelTimeOfDay,
+    ActivateTimeOfDay,
+    QueryTimeOfDay,
+    StartDelay,
+    CancelDelay,
+    QueryDelay,
+    MaskFaults,
+    UnmaskFaults,
+    ReadFaults,
+    ReplaceValue,
+    RealToText,
+    TextToReal,
 }
 
+/// Names, sections and types of parameters.
+pub(super) type Parameters = &'static [(&'static str, Section, Kind)];
+
 /// A row of the table: what it is, where it is called, its name, its parameters.
+#[derive(Clone, Copy)]
 pub(in crate::plc::step7) struct SystemBlock {
     pub(in crate::plc::step7) system: System,
     /// The number of the SFC or SFB; `None` for a function of a library, which is found by its name.
@@ -111,13 +132,15 @@ pub(in crate::plc::step7) enum Kind {
     TimerState,
 }
 
+use super::further::FURTHER;
+
 use Kind::{
     Any, Bool, Byte, DInt, DWord, Date, DateTime, Information, Int, Real, S5Time, Text, Time, TimeOfDay, TimerState,
     Word,
 };
 use Section::{Input, Output, Static};
 
-const fn sfc(number: u16) -> Option<BlockName> {
+pub(super) const fn sfc(number: u16) -> Option<BlockName> {
     Some(BlockName { kind: BlockKind::Sfc, number })
 }
 
@@ -125,7 +148,7 @@ const fn sfb(number: u16) -> Option<BlockName> {
     Some(BlockName { kind: BlockKind::Sfb, number })
 }
 
-const fn row(
+pub(super) const fn row(
     system: System,
     block: Option<BlockName>,
     name: &'static str,
@@ -134,7 +157,7 @@ const fn row(
     SystemBlock { system, block, name, parameters }
 }
 
-const RETURN: (&str, Section, Kind) = ("RET_VAL", Output, Int);
+pub(super) const RETURN: (&str, Section, Kind) = ("RET_VAL", Output, Int);
 const IEC_TIMER: &[(&str, Section, Kind)] = &[
     ("IN", Input, Bool),
     ("PT", Input, Time),
@@ -157,7 +180,21 @@ const TEXT_PART: &[(&str, Section, Kind)] = &[("IN", Input, Text), ("L", Input, 
 const MOVE: &[(&str, Section, Kind)] = &[("SRCBLK", Input, Any), RETURN, ("DSTBLK", Output, Any)];
 
 /// All built-in blocks.
-pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
+pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] =
+    &joined::<{ FREQUENT.len() + FURTHER.len() }>(FREQUENT, FURTHER);
+
+const fn joined<const N: usize>(first: &[SystemBlock], second: &[SystemBlock]) -> [SystemBlock; N] {
+    let mut all = [first[0]; N];
+    let mut index = 0;
+    while index < N {
+        all[index] = if index < first.len() { first[index] } else { second[index - first.len()] };
+        index += 1;
+    }
+    all
+}
+
+/// The blocks that most programs call.
+const FREQUENT: &[SystemBlock] = &[
     row(System::SetClock, sfc(0), "SET_CLK", &[("PDT", Input, DateTime), RETURN]),
     row(System::ReadClock, sfc(1), "READ_CLK", &[RETURN, ("CDT", Output, DateTime)]),
     row(
@@ -170,8 +207,8 @@ pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
     row(System::WriteConsistent, sfc(15), "DPWR_DAT", &[("LADDR", Input, Word), ("RECORD", Input, Any), RETURN]),
     row(System::BlockMove, sfc(20), "BLKMOV", MOVE),
     row(System::BlockMove, sfc(81), "UBLKMOV", MOVE),
-    row(System::Accepted, sfc(17), "ALARM_SQ", MESSAGE),
-    row(System::Accepted, sfc(18), "ALARM_S", MESSAGE),
+    row(System::Answer(0), sfc(17), "ALARM_SQ", MESSAGE),
+    row(System::Answer(0), sfc(18), "ALARM_S", MESSAGE),
     row(System::Fill, sfc(21), "FILL", &[("BVAL", Input, Any), RETURN, ("BLK", Output, Any)]),
     row(
         System::TestBlock,
@@ -189,7 +226,7 @@ pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
     row(System::Stop, sfc(46), "STP", &[]),
     row(System::Wait, sfc(47), "WAIT", &[("WT", Input, Int)]),
     row(
-        System::NoModule,
+        System::Answer(0x8090),
         sfc(58),
         "WR_REC",
         &[
@@ -203,7 +240,7 @@ pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
         ],
     ),
     row(
-        System::NoModule,
+        System::Answer(0x8090),
         sfc(59),
         "RD_REC",
         &[

@@ -89,6 +89,8 @@ impl Cpu {
             System::DateLater => self.shift_date(areas, true),
             System::DateEarlier => self.shift_date(areas, false),
             System::DateDifference => self.difference_of_dates(areas),
+            System::RealToText => self.real_to_text(areas),
+            System::TextToReal => self.text_to_real(areas),
             System::Length | System::Find => self.text_number(areas, function),
             System::Left => self.text_end(areas, true),
             System::Right => self.text_end(areas, false),
@@ -225,8 +227,6 @@ impl Cpu {
 
     /// A text with the sign first; BR 0 and an empty text if the result is too short.
     fn number_to_text<A: Areas>(&mut self, areas: &mut A, value: i64) -> Result<(), Fault> {
-        let at = self.element(areas, 1)?;
-        let [maximum]: [u8; 1] = self.read_bytes(areas, at)?;
         let mut digits = [0_u8; 12];
         let mut start = digits.len();
         let mut rest = value.unsigned_abs();
@@ -240,7 +240,13 @@ impl Cpu {
         }
         start -= 1;
         digits[start] = if value < 0 { b'-' } else { b'+' };
-        let text = &digits[start..];
+        self.put_text(areas, &digits[start..])
+    }
+
+    /// A short text into the STRING of parameter 2; BR 0 and an empty text if there is no room for it.
+    fn put_text<A: Areas>(&mut self, areas: &mut A, text: &[u8]) -> Result<(), Fault> {
+        let at = self.element(areas, 1)?;
+        let [maximum]: [u8; 1] = self.read_bytes(areas, at)?;
         let fits = text.len() <= usize::from(maximum);
         self.state.registers.status.br = fits;
         self.write_bytes(areas, at.after(1), [if fits { text.len() as u8 } else { 0 }])?;
@@ -250,6 +256,37 @@ impl Cpu {
             }
         }
         Ok(())
+    }
+
+    /// R_STRNG: sign, a digit, seven decimals and an exponent of two digits: `+1.5000000E+00`. BR 0 and an empty text for what is no number.
+    fn real_to_text<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
+        let value = self.real(areas, 0)?;
+        if !value.is_finite() {
+            self.put_text(areas, b"")?;
+            self.state.registers.status.br = false;
+            return Ok(());
+        }
+        // Its seven decimals are those of the exact value.
+        let text = format!("{:+.7E}", f64::from(value));
+        let (mantissa, exponent) = text.split_once('E').unwrap_or((&text, "0"));
+        let exponent: i32 = exponent.parse().unwrap_or(0);
+        self.put_text(areas, format!("{mantissa}E{exponent:+03}").as_bytes())
+    }
+
+    /// STRNG_R: a number with a point and an exponent, or without; 0 and BR 0 for another text.
+    fn text_to_real<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
+        let at = self.element(areas, 0)?;
+        let [length]: [u8; 1] = self.read_bytes(areas, at.after(1))?;
+        let mut text = String::new();
+        for index in 0..u32::from(length) {
+            let [letter]: [u8; 1] = self.read_bytes(areas, at.after(2 + index))?;
+            text.push(char::from(letter));
+        }
+        let is_number = |text: &&str| text.chars().all(|letter| letter.is_ascii_digit() || "+-.eE".contains(letter));
+        let value = Some(text.trim()).filter(is_number).and_then(|text| text.parse::<f32>().ok());
+        let value = value.filter(|value| value.is_finite());
+        self.state.registers.status.br = value.is_some();
+        self.set_argument(areas, 1, Width::Double, value.unwrap_or(0.0).to_bits())
     }
 
     /// A number with blanks before it and a sign; 0 and BR 0 for another text, or beyond the limits.

@@ -1,11 +1,15 @@
 //! Built-in blocks: system functions, and functions of the IEC and converting libraries.
 
+mod answers;
 mod counters;
 mod dispatch;
+mod further;
 mod iec;
 mod interface;
+mod interrupts;
 mod library;
 mod transfer;
 
-pub(in crate::plc::step7) use interface::{BASIC, SYSTEM, System, by_name, by_number, layout_of};
+pub(in crate::plc::step7) use answers::HoursMeter;
+pub(in crate::plc::step7) use interface::{BASIC, SYSTEM, System, SystemBlock, by_name, by_number, layout_of};
 pub(in crate::plc::step7) use transfer::Region;

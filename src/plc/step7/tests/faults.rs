@@ -24,6 +24,26 @@ fn a_fault_stops_the_plc_with_its_place_and_registers() {
     assert!(plc.cpu.stopped().is_none());
 }
 
+/// C-90: the fault, why the CPU is in STOP, and 35h or 25h or 29h as the class of the event.
+#[test]
+fn the_diagnostic_buffer_has_the_events_of_a_stop() {
+    let short = CpuOptions { instructions_per_scan: 100, ..CpuOptions::default() };
+    for (statements, events) in [
+        ("a: JU a;", (Some(0x3501), 0x4568)),
+        ("OPN DB 99;", (Some(0x253A), 0x4562)),
+        ("L W#16#A; BTI;", (Some(0x2521), 0x4562)),
+        ("L P#999.0; T MD 0; L PIB [MD 0];", (Some(0x2942), 0x4563)),
+        ("CALL SFC 46;", (None, 0x4304)),
+        // These have no OB121 and no event of their own here.
+        (") ;", (None, 0x4562)),
+    ] {
+        let mut plc = Plc::with(&ob1(statements), short);
+        plc.fault();
+        let diagnosis = plc.cpu.stopped().unwrap().diagnosis();
+        assert_eq!((diagnosis.cause, diagnosis.stop), events, "{statements}");
+    }
+}
+
 const OB121: &str = "ORGANIZATION_BLOCK OB 121\nVAR_TEMP\nclass : BYTE;\ncode : BYTE;\ninfo : ARRAY [0 .. 17] OF BYTE;\nEND_VAR\nBEGIN\n\
     L #code; T MB 40; L LW 8; T MW 42; L MW 44; + 1; T MW 44; L 99; SET;\nEND_ORGANIZATION_BLOCK\n";
 

@@ -11,6 +11,7 @@ mod faults;
 mod hostile;
 mod instructions;
 mod interface;
+mod interrupts;
 mod observed;
 mod saved;
 mod system;

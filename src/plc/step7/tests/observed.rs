@@ -30,10 +30,24 @@ fn plc(statements: &str, inputs: u8) -> Plc {
 
 /// The changes of the next scan: place, and the operands that made it.
 fn seen(plc: &mut Plc) -> Vec<(Named, Vec<(Named, bool)>)> {
-    plc.cpu.observed.as_mut().unwrap().seen.clear();
+    plc.cpu.observed.as_mut().unwrap().begin_cycle();
     plc.after(SECOND);
     let seen = &plc.cpu.observed.as_ref().unwrap().seen;
-    seen.iter().map(|seen| (seen.place, seen.tested.to_vec())).collect()
+    seen.iter()
+        .map(|seen| (seen.place, seen.tested.iter().map(|read| (read.named, read.value != 0)).collect()))
+        .collect()
+}
+
+/// A word, its new value, and the operands of which it was made, with their values.
+type Word = (Named, u32, Vec<(Named, u32)>);
+
+/// The words that the next scan changes, with their new values, and the operands of which they were made, with their values.
+fn words(plc: &mut Plc) -> Vec<Word> {
+    plc.cpu.observed.as_mut().unwrap().begin_cycle();
+    plc.after(SECOND);
+    let seen = plc.cpu.observed.as_ref().unwrap().seen.iter().filter(|seen| seen.bits > 1);
+    seen.map(|seen| (seen.place, seen.value, seen.tested.iter().map(|read| (read.named, read.value)).collect()))
+        .collect()
 }
 
 /// A network, the inputs I 0.0 to I 0.7, and the operands that decide with their values.
@@ -41,7 +55,7 @@ type Case<'a> = (&'a str, u8, &'a [(Named, bool)]);
 
 #[test]
 fn the_decisive_operands_are_named() {
-    let cases: [Case<'_>; 9] = [
+    let cases: [Case<'_>; 10] = [
         ("A I 0.0; AN I 0.1; = Q 0.0;", 0b001, &[(i(0), true), (i(1), false)]),
         ("O I 0.0; O I 0.1; = Q 0.0;", 0b010, &[(i(1), true)]),
         ("A I 0.0; A I 0.1; O; A I 0.2; = Q 0.0;", 0b110, &[(i(2), true)]),
@@ -50,8 +64,10 @@ fn the_decisive_operands_are_named() {
         ("A I 0.0; NOT; = Q 0.0;", 0, &[(i(0), false)]),
         // An edge: what is before it.
         ("A I 0.0; FP M 20.0; = Q 0.0;", 1, &[(i(0), true)]),
-        // A comparison is a value of its own; the contact beside it is named.
-        ("L MW 30; L 5; <I; A I 0.0; = Q 0.0;", 1, &[(i(0), true)]),
+        // A comparison names what it compared, and the contact beside it.
+        ("L MW 30; L 5; <I; A I 0.0; = Q 0.0;", 1, &[(m(30, 0), false), (i(0), true)]),
+        // Of a status bit it is not known.
+        ("L MW 30; L 5; -I; A <0; A I 0.0; = Q 0.0;", 1, &[(i(0), true)]),
         // LAD branches through a local bit.
         (
             "A I 0.0; AN I 0.1; = L 40.0; A L 40.0; BLD 102; A I 0.2; = Q 0.0;",
@@ -73,6 +89,97 @@ fn the_jump_before_set_is_named() {
     plc.memory.flags[1] = 2;
     let reasons = vec![(i(0), true), (i(1), false)];
     assert_eq!(seen(&mut plc), [(m(20, 0), vec![]), (m(1, 0), reasons.clone()), (m(1, 1), reasons)][1..]);
+}
+
+/// A network, the word that it makes, and the operands.
+type WordCase<'a> = (&'a str, u32, &'a [(Named, u32)]);
+
+/// MW 30 is 3 and MW 32 is 4.
+#[test]
+fn a_word_names_the_operands_of_which_it_is_made() {
+    let mw = |byte| m(byte, 0);
+    let (a, b) = ((mw(30), 3), (mw(32), 4));
+    let cases: [WordCase<'_>; 14] = [
+        ("L MW 30; T MW 40;", 3, &[a]),
+        ("L MW 30; L MW 32; +I; T MW 40;", 7, &[b, a]),
+        ("L MW 30; L 5; *I; T MW 40;", 15, &[a]),
+        ("L MW 30; L MW 32; TAK; -I; T MW 40;", 1, &[a, b]),
+        ("L MW 30; SLW 4; T MW 40;", 0x30, &[a]),
+        ("L MW 30; L MW 32; T MW 40;", 4, &[b]),
+        ("L MW 30; L MW 32; OW; T MW 40;", 7, &[b, a]),
+        // Through local data, and through a byte of it, of which the origin is not known.
+        ("L MW 30; T LW 40; L 9; L LW 40; T MW 40;", 3, &[a]),
+        ("L MW 30; T LW 40; L LB 41; T MW 40;", 3, &[]),
+        ("L MW 30; T LW 40; SET; = L 40.0; L LW 40; T MW 40;", 0x103, &[]),
+        ("LAR1 P#30.0; L MW [AR1,P#2.0]; T MW 40;", 4, &[b]),
+        // What is made of the status word is not known.
+        ("L MW 30; L STW; +I; T MW 40;", 3, &[]),
+        ("A I 0.0; AN I 0.1; JCN a; L 5; T MW 40; a: NOP 0;", 5, &[(i(0), 1), (i(1), 0)]),
+        ("L PIB 0; T MW 40;", 1, &[(i(0), 1)]),
+    ];
+    for (statements, value, wanted) in cases {
+        let mut plc = plc(statements, 1);
+        plc.memory.flags[31] = 3;
+        plc.memory.flags[33] = 4;
+        let all = words(&mut plc);
+        let found = all.iter().find(|(place, ..)| *place == mw(40)).unwrap_or_else(|| panic!("{statements}"));
+        assert_eq!((found.1, found.2.as_slice()), (value, wanted), "{statements}");
+        // The same value is no change.
+        assert_eq!(words(&mut plc), [], "{statements}");
+    }
+}
+
+/// The value of a timer and of a counter as they were loaded: 2 s of the base 10 ms are 200.
+#[test]
+fn values_of_timers_and_counters_are_named() {
+    let mut plc = plc("A I 0.0; L S5T#2S; SE T 5; CU C 3; L T 5; T MW 40; L C 3; T MW 42;", 1);
+    let found = words(&mut plc);
+    let timer = (m(40, 0), 200, vec![(Named::Timer(5), 200)]);
+    assert!(found.contains(&timer), "{found:?}");
+    assert!(found.contains(&(m(42, 0), 1, vec![(Named::Counter(3), 1)])), "{found:?}");
+}
+
+/// Through an FC with an operand in a data block, and through an instance.
+#[test]
+fn words_are_followed_through_parameters() {
+    let text = "DATA_BLOCK DB 10\nSTRUCT\na : INT := 7;\nb : INT;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n\
+        FUNCTION FC 1 : VOID\nVAR_INPUT\nx : INT;\nEND_VAR\nVAR_OUTPUT\ny : INT;\nEND_VAR\nBEGIN\nL #x; L 2; *I; T #y;\nEND_FUNCTION\n\
+        FUNCTION_BLOCK FB 1\nVAR_INPUT\nx : INT;\nEND_VAR\nVAR_OUTPUT\ny : INT;\nEND_VAR\nBEGIN\nL #x; T #y;\nEND_FUNCTION_BLOCK\n\
+        DATA_BLOCK DB 20\nFB 1\nBEGIN\nEND_DATA_BLOCK\n\
+        ORGANIZATION_BLOCK OB 1\nBEGIN\nCALL FC 1 ( x := DB10.a, y := DB10.b ); CALL FB 1 , DB 20 ( x := DB10.b, y := MW 40 );\nEND_ORGANIZATION_BLOCK\n";
+    let mut plc = Plc::new(text);
+    plc.cpu.observe();
+    let db = |number, byte: u32| Named::Block(number, byte * 8);
+    assert_eq!(
+        words(&mut plc),
+        [
+            (db(10, 2), 14, vec![(db(10, 0), 7)]),
+            (db(20, 0), 14, vec![(db(10, 2), 14)]),
+            (db(20, 2), 14, vec![(db(20, 0), 14)]),
+            (m(40, 0), 14, vec![(db(20, 2), 14)]),
+        ]
+    );
+}
+
+/// A jump into the middle: the contact before the label was not tested.
+#[test]
+fn a_string_that_was_entered_in_its_middle_names_nothing() {
+    let mut plc = plc("SET; JU a; A I 0.0; a: A I 0.1; = Q 0.0;", 0b10);
+    assert_eq!(seen(&mut plc), [(q(0), vec![])]);
+    let jump = "A I 0.1; JC b; A I 0.0; JCN a; b: L 5; T MW 40; a: NOP 0;";
+    let mut plc = self::plc(jump, 0b10);
+    assert_eq!(words(&mut plc), [(m(40, 0), 5, vec![])]);
+}
+
+/// OB121 has its own accumulators; after it those of OB1 are what they were.
+#[test]
+fn an_error_block_leaves_the_origins() {
+    let ob121 = "ORGANIZATION_BLOCK OB 121\nBEGIN\nL MW 50; T MW 52;\nEND_ORGANIZATION_BLOCK\n";
+    let mut plc = Plc::new(&format!("{ob121}{}", ob1("L MW 30; OPN DB 99; T MW 40;")));
+    plc.cpu.observe();
+    plc.memory.flags[31] = 3;
+    plc.memory.flags[51] = 8;
+    assert_eq!(words(&mut plc), [(m(52, 0), 8, vec![(m(50, 0), 8)]), (m(40, 0), 3, vec![(m(30, 0), 3)])]);
 }
 
 #[test]

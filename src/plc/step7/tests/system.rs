@@ -372,3 +372,31 @@ fn a_block_of_the_sources_with_statements_stays() {
     let program = program(&format!("{text}{}", ob1("CALL FC 1 ( RET_VAL := MW 0 );")));
     assert_eq!(program.code_blocks().count(), 2);
 }
+
+/// R_STRNG: sign, one digit, seven decimals, two digits of the exponent; STRNG_R reads it again.
+#[test]
+fn reals_become_texts_and_texts_reals() {
+    let blocks = "FUNCTION FC 130 : STRING\nNAME : R_STRNG\nVAR_INPUT\nIN : REAL;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        FUNCTION FC 139 : REAL\nNAME : STRNG_R\nVAR_INPUT\nS : STRING;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        DATA_BLOCK DB 20\nSTRUCT\nt : STRING [14];\ns : STRING [5];\nbad : STRING [14] := '1.5X';\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK";
+    let mut plc = plc(
+        blocks,
+        "CALL FC 130 ( IN := MD 20, RET_VAL := DB20.t ); A BR; = M 0.0; CALL FC 139 ( S := DB20.t, RET_VAL := MD 24 ); A BR; = M 0.1; \
+         CALL FC 130 ( IN := MD 20, RET_VAL := DB20.s ); A BR; = M 0.2; CALL FC 139 ( S := DB20.bad, RET_VAL := MD 28 ); A BR; = M 0.3;",
+    );
+    for (value, text) in
+        [(1.5_f32, "+1.5000000E+00"), (-0.012, "-1.2000000E-02"), (0.0, "+0.0000000E+00"), (65_536.0, "+6.5536000E+04")]
+    {
+        plc.memory.flags[20..24].copy_from_slice(&value.to_bits().to_be_bytes());
+        plc.scan();
+        let data = plc.memory.data(20).unwrap();
+        assert_eq!((data[1], std::str::from_utf8(&data[2..16]).unwrap()), (14, text));
+        // The text of seven decimals is exact for these values.
+        assert_eq!(plc.double(24), value.to_bits());
+        // Five letters are too few, and `X` is no number.
+        assert_eq!((plc.memory.flags[0] & 0xF, data[17], plc.double(28)), (0b0011, 0, 0));
+    }
+    plc.memory.flags[20..24].copy_from_slice(&f32::NAN.to_bits().to_be_bytes());
+    plc.scan();
+    assert_eq!((plc.memory.flags[0] & 1, plc.memory.data(20).unwrap()[1]), (0, 0));
+}
