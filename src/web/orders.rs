@@ -78,8 +78,9 @@ fn order(live: &Handle, table: Table, protects: &Protects) -> Result<Taken, Refu
     }
     let step = live.order(Order { commands, ..Order::default() });
     Ok(live.look(|seen| {
-        let ahead = step.saturating_sub(seen.step());
-        Taken { cycle: seen.machine().cycle() + ahead, step }
+        // The machine may have taken the step already.
+        let cycle = (seen.machine().cycle() + step).saturating_sub(seen.step());
+        Taken { cycle, step }
     }))
 }
 
