@@ -78,8 +78,9 @@ fn order(live: &Handle, table: Table, protects: &Protects) -> Result<Taken, Refu
     }
     let step = live.order(Order { commands, ..Order::default() });
     Ok(live.look(|seen| {
-        let ahead = step.saturating_sub(seen.step());
-        Taken { cycle: seen.machine().cycle() + ahead, step }
+        // The machine may have taken the step already.
+        let cycle = (seen.machine().cycle() + step).saturating_sub(seen.step());
+        Taken { cycle, step }
     }))
 }
 
@@ -104,6 +105,9 @@ async fn drive(live: &Handle, json: &Json) -> Option<Result<(), Problem>> {
             None => return wrong("a number from 0.001 to 1000", "write {\"speed\": 0.1}"),
         },
         "go_back" => match value.as_u64() {
+            Some(_) if live.is_held() => {
+                return wrong("a machine that has begun", "start the PLC process it waits for");
+            }
             Some(cycle) => return Some(live.go_back(cycle).await),
             None => return wrong("the number of a cycle", "write {\"go_back\": 1500}"),
         },

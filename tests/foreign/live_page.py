@@ -209,6 +209,7 @@ def operate(chromium, program, axe_core, pictures, checks, expect):
     view(page, "Diagram")
     edges = page.get_by_role("list", name="Last edges")
     seen("the pulse is told", edges, "X.feed_stop = 1")
+    seen("and its end", edges, "X.feed_stop = 0")
     times = [float(found) for found in re.findall(r"([\d.]+) s  X\.feed_stop = [01]  outside", edges.inner_text())]
     checks.that("it lasts 2 ms", len(times) == 2 and abs(times[0] - times[1] - 0.002) < 1e-9, str(times))
     waves = page.locator("#diagram svg path.wave").evaluate_all("all => all.map(path => path.getAttribute('d'))")

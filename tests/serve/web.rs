@@ -205,6 +205,13 @@ fn a_command_acts_in_the_cycle_of_its_answer() {
     page.step_to(1000);
     let cycle = page.command(&json!({"set": {"M10.0": 1, "X.feed_override": "50%"}}));
     assert_eq!(cycle, 1001);
+    // Also while the machine runs as fast as it can: steps and cycles are the same until it goes back.
+    let fast = Page::open(|_| {});
+    fast.command(&json!({"speed": 1000}));
+    for _ in 0..20 {
+        let (_, answer) = fast.post(&json!({"set": {"M10.0": 1}}), "");
+        assert_eq!(answer["cycle"], answer["step"], "{answer}");
+    }
     assert_eq!(page.live.with(|machine| (machine.cycle(), machine.memory().flags[10])), (1000, 0));
     page.step_to(1001);
     assert_eq!(page.live.with(|machine| machine.memory().flags[10]), 1);

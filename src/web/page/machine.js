@@ -16,6 +16,8 @@ const KEPT = 20000;
 const SAMPLES = 6000;
 /** Without an event for so long, what is shown is old. The server tells the state twice a second. */
 const SILENT = 2000;
+/** A step so far behind that of an answer is one of another server. */
+const RESTARTED = 1000;
 
 const listeners = { snapshot: [], step: [], link: [], message: [] };
 const symbols = new Map();
@@ -74,8 +76,9 @@ export function passed(step, time) {
   const from = machine.now?.time ?? 0;
   return new Promise((resolve) => {
     const look = ({ now }) => {
-      // After going back in time, its time is another one.
-      if (now.step > step && (now.time - from >= time || now.time < from)) {
+      // After going back in time, its time is another one; after a restart of the server, its steps are.
+      const isAnother = now.time < from || now.step + RESTARTED < step;
+      if (isAnother || (now.step > step && now.time - from >= time)) {
         listeners.step.splice(listeners.step.indexOf(look), 1);
         resolve();
       }

@@ -1,7 +1,7 @@
 // The status bar: time, mode, PLC, connection; pause, single steps, speed, back in time.
 
 import { button, el, field, say, seconds, set } from "./dom.js";
-import { command, machine, on, value } from "./machine.js";
+import { command, index, machine, on, value } from "./machine.js";
 
 const LINKS = {
   connecting: "connecting",
@@ -66,6 +66,8 @@ function back() {
 export function begin() {
   const bar = document.querySelector("#status");
   for (const name of ["Time", "Cycle", "Mode", "PLC", "Speed"]) bar.append(fact(name));
+  // A control without modes has none to show.
+  facts.get("Mode").parentElement.hidden = MODES.every(([symbol]) => index(symbol) === undefined);
   const link = document.querySelector("#link");
   on("link", (state) => {
     say(link, LINKS[state]);
