@@ -111,7 +111,8 @@ impl State {
     fn finish_reset_of_drives(&mut self, index: usize) {
         let members = self.members_of(index);
         if !members.iter().any(|axis| self.axes[*axis].feedback.drive_fault) {
-            let event = self.channels[index].causes.reset;
+            let (place, reset) = (Place::Channel(self.channels[index].number), self.channels[index].causes.reset);
+            let event = self.log.now(place, reset, Why::ResetClears, [Input::None; 3]);
             self.clear_differences_of(&members, event);
             self.clear_errors(index, &members, event);
         }
