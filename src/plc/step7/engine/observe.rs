@@ -147,7 +147,7 @@ impl Cpu {
             && (observed.seen.len() < CHANGES || observed.has_all_writes)
         {
             let pc = observed.pc;
-            observed.seen.push(Seen { pc, place, bits: 1, value, tested: ArrayVec::new() });
+            observed.seen.push(Seen { pc, place, bits: 1, value: value.into(), tested: ArrayVec::new() });
         }
     }
 
