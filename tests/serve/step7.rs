@@ -78,7 +78,7 @@ fn clients_see_timers_counters_and_why_the_program_stopped_the_plc() {
     let printed = BufReader::new(child.stdout.take().expect("it is piped")).lines();
     let mut addresses = printed
         .map_while(Result::ok)
-        .filter_map(|line| Some(line.split_once("127.0.0.1:")?.1.split(':').next()?.trim().parse::<u16>().ok()?));
+        .filter_map(|line| line.split_once("127.0.0.1:")?.1.split(':').next()?.trim().parse::<u16>().ok());
     let address = SocketAddr::from(([127, 0, 0, 1], addresses.next().expect("the output has the port")));
     let mut log = BufReader::new(child.stderr.take().expect("it is piped")).lines().map_while(Result::ok);
 
