@@ -34,7 +34,11 @@ impl Cpu {
             return self.run_basic(areas, block);
         }
         let before = areas.link().map(|link| link.to_nck.as_bytes().to_vec()).unwrap_or_default();
+        let pc = self.observed.as_ref().map_or(0, |observed| observed.pc);
         let done = self.run_basic(areas, block);
+        if let Some(observed) = &mut self.observed {
+            observed.pc = pc;
+        }
         if let Some(link) = areas.link() {
             self.note_interface(&before, link.to_nck.as_bytes());
         }

@@ -4,7 +4,7 @@
 //! the HMI on to the interface; the bytes of the NCK are there without it, as late as `from_nck_delay` says.
 
 use crate::plc::step7::engine::{Areas, Cpu, Fault};
-use crate::plc::step7::instruction::Width;
+use crate::plc::step7::instruction::{BlockKind, Width};
 use crate::plc::step7::text::types::Layout;
 use crate::plc::{Link, NcVariable};
 use crate::units::ChannelNumber;
@@ -75,16 +75,33 @@ impl Cpu {
     /// FC2.
     pub(super) fn general<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
         self.state.basic.general_calls = self.state.basic.general_calls.wrapping_add(1);
-        let takes_selections = self.state.basic.takes_hmi_selections;
-        if let Some(mut link) = areas.link()
-            && takes_selections
+        let basic = &mut self.state.basic;
+        if basic.takes_hmi_selections
+            && let Some(mut link) = areas.link()
         {
-            pass_selections(&mut link);
+            pass_selections(&mut link, &mut basic.selections);
         }
-        if self.state.basic.has_interrupt && has_auxiliary_functions(areas) {
+        let mut has_signals = false;
+        for channel in 1..=10 {
+            if has_auxiliary_functions(areas, channel) {
+                has_signals = true;
+                self.call_auxiliary(areas, channel)?;
+            }
+        }
+        if has_signals && self.state.basic.has_interrupt {
             return self.process_interrupt(areas);
         }
         Ok(())
+    }
+
+    /// FC12 (AUXFU) of the user, if the sources have it: FC2 calls it when a channel has output auxiliary functions.
+    fn call_auxiliary<A: Areas>(&mut self, areas: &mut A, channel: u8) -> Result<(), Fault> {
+        match self.program.find(BlockKind::Fc, 12) {
+            Some(index) if self.program.blocks[usize::from(index)].parameters == 1 => {
+                self.call_user(areas, index, channel)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// FC5: no rack and no slave fails here, so there is nothing to go on from.
@@ -93,27 +110,37 @@ impl Cpu {
     }
 }
 
-/// Whether a channel has output an auxiliary function: a change bit of DB21.DBB58 to 65 (P-140).
-fn has_auxiliary_functions<A: Areas>(areas: &A) -> bool {
-    (21..=30).any(|number| {
-        let bytes = areas.block(number).and_then(|block| areas.read::<8>(block, 58));
-        // DBB59 says which M functions are not decoded, which is no change.
-        bytes.is_some_and(|bytes| bytes.iter().enumerate().any(|(index, byte)| index != 1 && *byte != 0))
-    })
+/// Whether a channel has output an auxiliary function: a change bit of DB21.DBB58, or of 60 to 65.
+fn has_auxiliary_functions<A: Areas>(areas: &A, channel: u8) -> bool {
+    let bytes = areas.block(20 + u16::from(channel)).and_then(|block| areas.read::<8>(block, 58));
+    // DBB59 says which M functions are not decoded, which is no change.
+    bytes.is_some_and(|bytes| bytes.iter().enumerate().any(|(index, byte)| index != 1 && *byte != 0))
 }
 
-/// The program control that the HMI has selected, in the channels of the machine (P-132).
-fn pass_selections(link: &mut Link<'_>) {
+/// The program control that the HMI has selected, in the channels of the machine: where a selection changes, its signal follows (P-132).
+fn pass_selections(link: &mut Link<'_>, before: &mut [u8; 10]) {
     let names = link.names;
-    for channel in ChannelNumber::all() {
+    for (channel, before) in ChannelNumber::all().zip(before) {
         if channel != ChannelNumber::FIRST && names.channels[channel].is_none() {
             continue;
         }
         let (hmi, signals) = (link.hmi.channel(channel), link.to_nck.channel(channel));
-        signals.set_activate_drf(hmi.drf_selected());
-        signals.set_activate_m01(hmi.m01_selected());
-        signals.set_activate_dry_run_feedrate(hmi.dry_run_feedrate_selected());
-        signals.set_rapid_traverse_override_active(hmi.feed_override_for_rapid_traverse_selected());
+        let selected = [
+            hmi.drf_selected(),
+            hmi.m01_selected(),
+            hmi.dry_run_feedrate_selected(),
+            hmi.feed_override_for_rapid_traverse_selected(),
+        ];
+        let now = selected.iter().fold(0, |bits, bit| bits << 1 | u8::from(*bit));
+        let changed = now ^ std::mem::replace(before, now);
+        for (index, value) in selected.into_iter().enumerate().filter(|(index, _)| changed >> (3 - index) & 1 == 1) {
+            match index {
+                0 => signals.set_activate_drf(value),
+                1 => signals.set_activate_m01(value),
+                2 => signals.set_activate_dry_run_feedrate(value),
+                _ => signals.set_rapid_traverse_override_active(value),
+            }
+        }
     }
 }
 

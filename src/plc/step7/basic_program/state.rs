@@ -19,6 +19,8 @@ pub(in crate::plc::step7) struct BasicState {
     pub(super) has_nc_communication: bool,
     /// `MMCToIF`.
     pub(super) takes_hmi_selections: bool,
+    /// The selections of the HMI by channel, in the last call of FC2.
+    pub(super) selections: [u8; 10],
     /// `UserIR`.
     pub(super) has_interrupt: bool,
     pub(super) messages: AlarmMessages,
@@ -40,6 +42,7 @@ impl Default for BasicState {
             general_calls: 0,
             has_nc_communication: false,
             takes_hmi_selections: true,
+            selections: [0; 10],
             has_interrupt: false,
             messages: AlarmMessages::default(),
             panels: [ControlPanel::default(); 2],

@@ -5,6 +5,7 @@ use crate::plc::step7::instruction::{
 };
 use crate::plc::step7::system::{SYSTEM, by_number};
 
+use super::access::{Spot, Where};
 use super::cpu::{Cpu, Frame, McrState};
 use super::fault::Fault;
 use super::memory::{Areas, OpenBlock};
@@ -133,6 +134,27 @@ impl Cpu {
             }
             Target::Nothing => Ok(self.leave()),
         }
+    }
+
+    /// Calls a function of the user with one byte as its parameter, and comes back when it has ended.
+    pub(in crate::plc::step7) fn call_user<A: Areas>(
+        &mut self,
+        areas: &mut A,
+        index: u16,
+        value: u8,
+    ) -> Result<(), Fault> {
+        // The last byte of the local data is nobody's.
+        let Some(last) = self.state.local.len().checked_sub(1) else { return Ok(()) };
+        self.state.local[last] = value;
+        let last = u32::try_from(last).unwrap_or(u32::MAX);
+        let first = u32::try_from(self.work.parameters.len()).unwrap_or(u32::MAX);
+        let parameter = self.reference_to(Spot { at: Where::Local(last, last + 1), bit: 0 });
+        self.work.parameters.push(parameter);
+        let registers = self.state.registers;
+        let start = self.enter(areas, Target::Block(index), Instance::None, (first, 1), u32::MAX)?;
+        self.run(areas, start)?;
+        self.state.registers = registers;
+        Ok(())
     }
 
     /// Begins a block.

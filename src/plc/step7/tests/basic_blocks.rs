@@ -236,3 +236,16 @@ fn ob40_runs_after_fc2_with_an_auxiliary_function() {
         assert_eq!(bench.get("MW10"), wanted);
     }
 }
+
+/// FC2 calls FC12 of the sources for the channel that has output an auxiliary function.
+#[test]
+fn fc12_of_the_user_is_called_by_fc2() {
+    let own = "FUNCTION FC 12 : VOID\nVAR_INPUT\nChan : BYTE;\nEND_VAR\nBEGIN\nL #Chan; T MB 12; L MW 10; + 1; T MW 10;\nEND_FUNCTION\n";
+    let (mut bench, mut program) = started(&format!("{own}{}", blocks("", "CALL FC 2; L MW 14; + 1; T MW 14;")));
+    bench.scan(&mut program).unwrap();
+    bench.set("DB22.DBX60.0", 1);
+    bench.scan(&mut program).unwrap();
+    bench.set("DB22.DBX60.0", 0);
+    bench.scan(&mut program).unwrap();
+    assert_eq!(["MB12", "MW10", "MW14"].map(|address| bench.get(address)), [2, 1, 3]);
+}

@@ -116,6 +116,10 @@ fn fc2_passes_the_selections_of_the_hmi_unless_fb1_says_no() {
         bench.set("DB21.DBX24.6", 1);
         bench.scan(&mut program).unwrap();
         assert_eq!(bench.get("DB21.DBB0"), wanted, "DRF 0.3 and dry run 0.6");
+        // A signal that the program sets itself stays while the selection does.
+        bench.set("DB21.DBX6.6", 1);
+        bench.scan(&mut program).unwrap();
+        assert_eq!(bench.get("DB21.DBX6.6"), 1);
     }
 }
 
