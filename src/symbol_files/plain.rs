@@ -1,6 +1,6 @@
 //! Plain lists: a line for each signal.
 
-use super::{Symbol, SymbolFile, Type};
+use super::symbol::{Symbol, SymbolFile, Type};
 
 /// `DB31,X4.7;X.traversing_key_plus`: address and name, as node-red-contrib-s7 reads them.
 pub(super) fn node_red(symbols: &[Symbol]) -> SymbolFile {

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::short::Names;
-use super::{Symbol, SymbolFile};
+use super::symbol::{Symbol, SymbolFile};
 
 /// The longest symbol and the longest name of a component.
 const LONGEST: usize = 24;

@@ -1,7 +1,7 @@
 //! Each format with signals of all types. The expected lines follow from the documentation of the tools.
 
 use super::*;
-use crate::image::Format as Number;
+use crate::image::{Address, Area, Format as Number, Width, Writer};
 
 fn symbol(name: &str, block: u16, byte: u16, width: Width, format: Option<Number>) -> Symbol {
     let (owner, signal) = name.split_once('.').unwrap();

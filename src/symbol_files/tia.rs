@@ -3,7 +3,7 @@
 use rust_xlsxwriter::{Workbook, XlsxError};
 
 use super::short::Names;
-use super::{Symbol, SymbolFile, Type};
+use super::symbol::{Symbol, SymbolFile, Type};
 
 /// The columns, and the value of those that are the same for all signals.
 const COLUMNS: [(&str, &str); 33] = [

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use clap::ValueEnum;
 
-use super::Listed;
 use crate::cli::files::Files;
 use crate::cli::list::Format;
 use crate::cli::output::Output;
@@ -58,6 +57,13 @@ impl SignalFormat {
             Self::Table | Self::Json | Self::Csv => unreachable!("lists are no symbol files"),
         }
     }
+}
+
+/// What of the catalogue is listed, how, and where.
+pub(in crate::cli) struct Listed<'a> {
+    pub(in crate::cli) filter: Option<&'a str>,
+    pub(in crate::cli) format: SignalFormat,
+    pub(in crate::cli) file: Option<&'a Path>,
 }
 
 /// A signal of the list.

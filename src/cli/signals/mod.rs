@@ -16,8 +16,8 @@ use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{AxisValue, NamedValue};
 use aliases::means;
-pub(super) use files::SignalFormat;
 use files::SymbolRow;
+pub(super) use files::{Listed, SignalFormat};
 
 /// The columns for programs. New ones are added at the end.
 const HEADS: &[&str] = &["address", "symbol", "writer", "name", "modelled"];
@@ -65,13 +65,6 @@ struct Catalogue {
     texts: &'static dyn Texts,
     /// The machine that gave the names: all its axes, channels and mode groups are listed.
     machine: Option<Machine>,
-}
-
-/// What of the catalogue is listed, how, and where.
-pub(super) struct Listed<'a> {
-    pub(super) filter: Option<&'a str>,
-    pub(super) format: SignalFormat,
-    pub(super) file: Option<&'a Path>,
 }
 
 pub(super) fn signals(machine: Option<&Path>, profile: &str, listed: &Listed<'_>, output: &mut Output) -> u8 {

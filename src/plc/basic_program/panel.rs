@@ -15,7 +15,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::panel_lamps::lamps;
 use crate::image::ModeGroupToNck;
 use crate::plc::{Link, PlcIo};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
@@ -165,7 +164,7 @@ impl ControlPanel {
         if let Some(byte) = link.blocks.get_mut(HMI_BLOCK).and_then(|block| block.get_mut(0)) {
             *byte = *byte & 0x7F | u8::from(self.is_workpiece) << 7;
         }
-        PanelOutputs { lamps: lamps(self, link, inputs), feed_hold: self.feed_hold, spindle_hold: self.spindle_hold }
+        PanelOutputs { lamps: self.lamps(link, inputs), feed_hold: self.feed_hold, spindle_hold: self.spindle_hold }
     }
 
     /// The last key or strobe of the HMI wins.

@@ -13,7 +13,7 @@ use crate::plc::step7::text::symbols::Symbols;
 use crate::plc::step7::text::syntax::{Block, Body, Declaration, Declared, Name, Step};
 use crate::plc::step7::text::types::{Array, Layout, Section, Type, store};
 
-use super::Settings;
+use super::settings::Settings;
 
 /// How deep blocks and types may contain each other.
 const DEEPEST: usize = 24;

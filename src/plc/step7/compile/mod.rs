@@ -5,10 +5,10 @@
 mod built_in;
 mod calls;
 mod declare;
+mod settings;
 mod statements;
 mod unit;
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::instruction::{BlockKind, BlockName};
@@ -20,6 +20,7 @@ use super::text::symbols::{SymbolForm, Symbols};
 use super::text::syntax::{Block, Body};
 
 use declare::Known;
+pub use settings::Settings;
 use unit::{Tables, Unit};
 
 /// What a file contains.
@@ -47,26 +48,6 @@ impl Source {
     #[must_use]
     pub fn statements(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into(), kind: SourceKind::Statements }
-    }
-}
-
-/// How sources are compiled.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Settings {
-    /// Calls of blocks that are nowhere are left out.
-    pub ignores_missing: bool,
-    /// Library functions by their numbers: `FC210` is `SCALE`.
-    pub library: BTreeMap<BlockName, String>,
-    /// Blocks of the basic program that stay ours although the sources hold them.
-    pub ours: Vec<BlockName>,
-    /// The least numbers of bytes of I, Q, M, and of timers and counters.
-    pub least: [u32; 5],
-}
-
-impl Default for Settings {
-    /// Calls of missing blocks are findings; the areas are at least as large as in a machine without a program.
-    fn default() -> Self {
-        Self { ignores_missing: false, library: BTreeMap::new(), ours: Vec::new(), least: [128, 128, 256, 32, 32] }
     }
 }
 

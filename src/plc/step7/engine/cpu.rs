@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use crate::plc::step7::basic_program::BasicState;
 use crate::plc::step7::instruction::Logic;
 use crate::plc::step7::program::Program;
-use crate::plc::step7::system::HoursMeter;
 
 use super::arithmetic::digits;
 use super::fault::Stop;
+use super::hours_meter::HoursMeter;
 use super::interrupts::{Interrupts, present};
 use super::memory::OpenBlock;
 use super::observed::Observed;

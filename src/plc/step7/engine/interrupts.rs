@@ -7,12 +7,8 @@ use crate::plc::step7::instruction::BlockKind;
 use crate::plc::step7::program::Program;
 use crate::plc::step7::text::constants::{calendar, days};
 
-use super::cpu::Cpu;
-use super::fault::Stop;
-use super::memory::Areas;
-
 pub(in crate::plc::step7) const DAY_MILLIS: i64 = 86_400_000;
-const MILLI_NANOS: i64 = 1_000_000;
+pub(super) const MILLI_NANOS: i64 = 1_000_000;
 
 /// The blocks that time starts, by their first numbers.
 pub(in crate::plc::step7) const TIME_OF_DAY: u16 = 10;
@@ -45,7 +41,7 @@ impl Period {
         }
     }
 
-    fn code(self) -> u16 {
+    pub(super) fn code(self) -> u16 {
         match self {
             Self::Once => 0,
             Self::Every { code, .. } => code,
@@ -107,7 +103,7 @@ pub(in crate::plc::step7) struct Interrupts {
     pub(in crate::plc::step7) times: [Option<TimeOfDay>; 8],
     pub(in crate::plc::step7) delays: [Option<Delay>; 4],
     /// The next times of the cyclic interrupts, in ns.
-    next: [i64; 9],
+    pub(super) next: [i64; 9],
     /// A bit for each organization block that SFC 39 has disabled: what comes is discarded.
     pub(in crate::plc::step7) disabled: u64,
 }
@@ -123,126 +119,4 @@ impl Interrupts {
 pub(in crate::plc::step7) fn present(program: &Program) -> u64 {
     let numbers = (TIME_OF_DAY..18).chain(TIME_DELAY..24).chain(CYCLIC..39);
     numbers.filter(|number| program.find(BlockKind::Ob, *number).is_some()).fold(0, |bits, number| bits | 1 << number)
-}
-
-/// The elements whose bits are set, from the last to the first, with the numbers of their blocks.
-fn of_bits(bits: u64, first: u16, count: u16) -> impl Iterator<Item = (usize, u16)> {
-    (0..count).rev().map(move |index| (usize::from(index), first + index)).filter(move |(_, ob)| bits >> ob & 1 == 1)
-}
-
-impl Cpu {
-    /// Whether the program has a block that runs between two scans.
-    #[must_use]
-    pub fn has_interrupts(&self) -> bool {
-        self.interrupts != 0
-    }
-
-    /// Whether [`Cpu::interrupt`] would run a block at a time in ns.
-    #[must_use]
-    pub fn interrupt_is_due(&self, now: i64) -> bool {
-        let (bits, state) = (self.interrupts, &self.state.interrupts);
-        of_bits(bits, CYCLIC, 9).any(|(index, _)| now >= state.next[index])
-            || of_bits(bits, TIME_DELAY, 4).any(|(index, _)| state.delays[index].is_some_and(|delay| now >= delay.due))
-            || of_bits(bits, TIME_OF_DAY, 8).any(|(index, _)| self.time_of_day_is_due(index, now))
-    }
-
-    fn time_of_day_is_due(&self, index: usize, now: i64) -> bool {
-        let next = self.state.interrupts.times[index].and_then(|set| set.next);
-        next.is_some_and(|next| self.clock_at(now) >= next)
-    }
-
-    /// Runs the blocks that are due.
-    pub(super) fn interrupts<A: Areas>(&mut self, areas: &mut A, now: i64) -> Result<(), Box<Stop>> {
-        let bits = self.interrupts;
-        if bits == 0 {
-            return Ok(());
-        }
-        for (index, number) in of_bits(bits, CYCLIC, 9) {
-            if now >= self.state.interrupts.next[index] {
-                let period = self.options.cyclic_nanos[index].max(1);
-                let next = &mut self.state.interrupts.next[index];
-                let late = (now - *next) / period;
-                *next = next.saturating_add((late + 1).saturating_mul(period));
-                let millis = i16::try_from(period / MILLI_NANOS).unwrap_or(i16::MAX);
-                self.run_interrupt(areas, number, |information| {
-                    information[10..12].copy_from_slice(&millis.to_be_bytes());
-                })?;
-            }
-        }
-        for (index, number) in of_bits(bits, TIME_DELAY, 4) {
-            if let Some(delay) = self.state.interrupts.delays[index].take_if(|delay| now >= delay.due) {
-                self.run_interrupt(areas, number, |information| {
-                    information[6..8].copy_from_slice(&delay.sign.to_be_bytes());
-                    information[8..12].copy_from_slice(&delay.millis.to_be_bytes());
-                })?;
-            }
-        }
-        for (index, number) in of_bits(bits, TIME_OF_DAY, 8) {
-            if self.time_of_day_is_due(index, now) {
-                let clock = self.clock_at(now);
-                let Some(set) = &mut self.state.interrupts.times[index] else { continue };
-                set.next = set.period.after(set.start, clock);
-                let code = set.period.code();
-                self.run_interrupt(areas, number, |information| {
-                    information[6..8].copy_from_slice(&code.to_be_bytes());
-                })?;
-            }
-        }
-        Ok(())
-    }
-
-    fn run_interrupt<A: Areas>(
-        &mut self,
-        areas: &mut A,
-        number: u16,
-        describe: impl FnOnce(&mut [u8; 20]),
-    ) -> Result<(), Box<Stop>> {
-        if self.state.interrupts.disabled >> number & 1 == 1 {
-            return Ok(());
-        }
-        // The event and the priority: 11h and 2 for OB10, 21h and 3 for OB20, 31h and 7 for OB30.
-        let (event, priority) = match number {
-            CYCLIC.. => (0x31 + number - CYCLIC, 7 + number - CYCLIC),
-            TIME_DELAY.. => (0x21 + number - TIME_DELAY, 3 + number - TIME_DELAY),
-            _ => (0x11 + number - TIME_OF_DAY, 2),
-        };
-        let byte = |value: u16| u8::try_from(value).unwrap_or(u8::MAX);
-        let mut information = self.information(0x11, byte(event), byte(priority), byte(number));
-        describe(&mut information);
-        let done = self.organization_block(areas, number, &information);
-        self.ended(done)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn at(year: u32, month: u32, day: u32, hour: i64) -> i64 {
-        i64::from(days(year, month, day).unwrap()) * DAY_MILLIS + hour * 3_600_000
-    }
-
-    #[test]
-    fn a_series_goes_on_after_a_time() {
-        let start = at(2024, 1, 31, 6);
-        for (code, time, next) in [
-            (0x0000, at(2024, 1, 1, 0), Some(start)),
-            (0x0000, start, None),
-            (0x0201, start, Some(start + 60_000)),
-            (0x0401, at(2024, 2, 1, 7) + 1, Some(at(2024, 2, 1, 8))),
-            (0x1001, start, Some(at(2024, 2, 1, 6))),
-            (0x1201, start, Some(at(2024, 2, 7, 6))),
-            // February has no 31st; its end is the 29th in 2024.
-            (0x1401, start, Some(at(2024, 3, 31, 6))),
-            (0x1801, start, Some(at(2025, 1, 31, 6))),
-            (0x2001, start, Some(at(2024, 2, 29, 6))),
-            (0x2001, at(2024, 1, 10, 0), Some(start)),
-            (0x1401, at(2024, 1, 10, 0), Some(start)),
-        ] {
-            assert_eq!(Period::of(code).unwrap().after(start, time), next, "{code:04X}");
-        }
-        let leap = at(2024, 2, 29, 0);
-        assert_eq!(Period::Year.after(leap, leap), Some(at(2028, 2, 29, 0)));
-        assert_eq!(Period::of(0x0202), None);
-    }
 }

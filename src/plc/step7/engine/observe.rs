@@ -12,7 +12,8 @@ use super::access::{Spot, Where};
 use super::cpu::Cpu;
 use super::flow::width_of;
 use super::memory::{Area, Areas};
-use super::observed::{CHANGES, Clock, NO, Named, RAN, Read, Seen, WORDS, YES};
+use super::observed::{CHANGES, Clock, NO, RAN, Seen, WORDS, YES};
+use super::read::{Named, Read};
 
 /// The bit address of Q in the instance of an IEC timer; IN is its first bit.
 const Q: u32 = 6 * 8;

@@ -3,15 +3,14 @@
 
 use arrayvec::ArrayVec;
 
-use super::flow::Flow;
-use super::memory::{Area, OpenBlock};
+use super::memory::OpenBlock;
+use super::origin::Flow;
+use super::read::{Named, OPERANDS, Read};
 
 /// The changes that are kept of one cycle.
 pub(in crate::plc::step7) const CHANGES: usize = 512;
 /// Of these, the words outside of an interface, which can change in every scan.
 pub(in crate::plc::step7) const WORDS: usize = 128;
-/// The operands that are kept of one change.
-pub(in crate::plc::step7) const OPERANDS: usize = 8;
 
 /// The instruction ran.
 pub(in crate::plc::step7) const RAN: u8 = 1;
@@ -19,33 +18,6 @@ pub(in crate::plc::step7) const RAN: u8 = 1;
 pub(in crate::plc::step7) const NO: u8 = 2;
 /// A contact was true, or a branch was taken.
 pub(in crate::plc::step7) const YES: u8 = 4;
-
-/// A place that has a name outside of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::plc::step7) enum Named {
-    Area(Area, u32),
-    /// A data block by its number.
-    Block(u16, u32),
-    Timer(u16),
-    Counter(u16),
-    /// The part that the PLC writes to the NCK.
-    ToNck(u32),
-}
-
-/// An operand that was read, with the value that it had.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::plc::step7) struct Read {
-    pub(in crate::plc::step7) named: Named,
-    /// 1, 8, 16 or 32. Of a timer or a counter 1 is its status, 16 its value as it was loaded.
-    pub(in crate::plc::step7) bits: u8,
-    pub(in crate::plc::step7) value: u32,
-}
-
-impl Read {
-    pub(in crate::plc::step7) const fn bit(named: Named, value: bool) -> Self {
-        Self { named, bits: 1, value: value as u32 }
-    }
-}
 
 /// A change of the memory, and the operands that made it.
 #[derive(Clone, Debug)]

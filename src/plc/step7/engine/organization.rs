@@ -5,9 +5,9 @@ use crate::plc::step7::text::constants::date_time_of;
 
 use super::cpu::{Cpu, Mask, McrState};
 use super::fault::{Fault, Stop};
-use super::flow::Flow;
 use super::interrupts::{DAY_MILLIS, Interrupts};
 use super::memory::{Areas, OpenBlock};
+use super::origin::Flow;
 use super::registers::Status;
 
 const MILLI_NANOS: i64 = 1_000_000;

@@ -8,7 +8,7 @@ use crate::plc::step7::instruction::{CopySource, Jump, Logic, Number, Op, Operan
 use super::cpu::Cpu;
 use super::flow::width_of;
 use super::memory::{Areas, OpenBlock};
-use super::observed::{Named, OPERANDS, Read};
+use super::read::{Named, OPERANDS, Read};
 
 /// The nodes of the tree of a logic string.
 const NODES: usize = 96;

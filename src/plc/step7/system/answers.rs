@@ -1,35 +1,13 @@
 //! System functions for what the simulator does not have (modules, stations, messages): their answers; hours meters (SFC 2 to 4), the
 //! substitute value of a failed read (SFC 44), data blocks that the program makes (SFC 22).
 
-use serde::{Deserialize, Serialize};
-
-use crate::plc::step7::engine::{Areas, Cpu, Fault};
+use crate::plc::step7::engine::{Areas, Cpu, Fault, HoursMeter};
 use crate::plc::step7::instruction::Width;
 use crate::plc::step7::text::types::Section;
 
 use super::interface::{Kind, SYSTEM, System};
 
 const HOUR_NANOS: i64 = 3_600_000_000_000;
-
-/// An hours meter.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::plc::step7) struct HoursMeter {
-    /// What it had counted when it was started last, in ns.
-    counted: i64,
-    /// The time at which it was started, while it runs.
-    since: Option<i64>,
-}
-
-impl HoursMeter {
-    fn nanos(self, now: i64) -> i64 {
-        self.counted.saturating_add(self.since.map_or(0, |since| now - since))
-    }
-
-    /// It stands, with what it has counted.
-    pub(in crate::plc::step7) fn stopped(self, now: i64) -> Self {
-        Self { counted: self.nanos(now), since: None }
-    }
-}
 
 impl Cpu {
     /// A call that does nothing: RET_VAL, and 0 in the other outputs.

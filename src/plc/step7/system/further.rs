@@ -3,10 +3,10 @@
 
 use crate::plc::step7::text::types::Section::{Input, Output};
 
-use super::interface::Kind::{Any, Bool, Byte, DWord, DateTime, Int, Real, Text, Time, Word};
-use super::interface::{Parameters, RETURN, System, SystemBlock, row, sfc};
+use super::rows::Kind::{Any, Bool, Byte, DWord, DateTime, Int, Real, Text, Time, Word};
+use super::rows::{Parameters, RETURN, System, SystemBlock, row, sfc};
 
-const BUSY: (&str, crate::plc::step7::text::types::Section, super::interface::Kind) = ("BUSY", Output, Bool);
+const BUSY: (&str, crate::plc::step7::text::types::Section, super::rows::Kind) = ("BUSY", Output, Bool);
 const QUERY: Parameters = &[("OB_NR", Input, Int), RETURN, ("STATUS", Output, Word)];
 const NUMBER: Parameters = &[("OB_NR", Input, Int), RETURN];
 const MESSAGE: Parameters = &[

@@ -6,133 +6,9 @@ use crate::plc::step7::basic_program::BLOCKS;
 use crate::plc::step7::instruction::{BlockKind, BlockName};
 use crate::plc::step7::text::types::{Array, Layout, Section, Type};
 
-/// A built-in block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::plc::step7) enum System {
-    SetClock,
-    ReadClock,
-    StartInformation,
-    ReadConsistent,
-    WriteConsistent,
-    BlockMove,
-    Fill,
-    UpdateImage,
-    Retrigger,
-    DisableInterrupts,
-    EnableInterrupts,
-    DelayInterrupts,
-    AllowInterrupts,
-    Stop,
-    Wait,
-    TimeTick,
-    CountUp,
-    CountDown,
-    CountUpDown,
-    Pulse,
-    OnDelay,
-    OffDelay,
-    TimerToTime,
-    TimeToTimer,
-    Limit,
-    Maximum,
-    Minimum,
-    Scale,
-    Unscale,
-    DateOf,
-    TimeOfDayOf,
-    WeekdayOf,
-    DateAndTime,
-    IntToText,
-    DoubleToText,
-    TextToInt,
-    TextToDouble,
-    TextEqual,
-    TextNotEqual,
-    TextGreater,
-    TextGreaterEqual,
-    TextLess,
-    TextLessEqual,
-    DateEqual,
-    DateNotEqual,
-    DateGreater,
-    DateGreaterEqual,
-    DateLess,
-    DateLessEqual,
-    DateLater,
-    DateEarlier,
-    DateDifference,
-    Length,
-    Find,
-    Left,
-    Right,
-    Middle,
-    Concatenate,
-    Insert,
-    Delete,
-    Replace,
-    Select,
-    BitSum,
-    Encode,
-    Decode,
-    TestBlock,
-    /// It does nothing and has this RET_VAL.
-    Answer(u16),
-    SetHours,
-    ControlHours,
-    ReadHours,
-    CreateBlock,
-    SetTimeOfDay,
-    CancelTimeOfDay,
-    ActivateTimeOfDay,
-    QueryTimeOfDay,
-    StartDelay,
-    CancelDelay,
-    QueryDelay,
-    MaskFaults,
-    UnmaskFaults,
-    ReadFaults,
-    ReplaceValue,
-    RealToText,
-    TextToReal,
-}
-
-/// Names, sections and types of parameters.
-pub(super) type Parameters = &'static [(&'static str, Section, Kind)];
-
-/// A row of the table: what it is, where it is called, its name, its parameters.
-#[derive(Clone, Copy)]
-pub(in crate::plc::step7) struct SystemBlock {
-    pub(in crate::plc::step7) system: System,
-    /// The number of the SFC or SFB; `None` for a function of a library, which is found by its name.
-    pub(in crate::plc::step7) block: Option<BlockName>,
-    pub(in crate::plc::step7) name: &'static str,
-    pub(in crate::plc::step7) parameters: &'static [(&'static str, Section, Kind)],
-}
-
-/// The type of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::plc::step7) enum Kind {
-    Bool,
-    Byte,
-    Word,
-    Int,
-    DInt,
-    DWord,
-    Real,
-    Time,
-    S5Time,
-    Date,
-    TimeOfDay,
-    DateTime,
-    Text,
-    Any,
-    /// A structure of 20 bytes.
-    Information,
-    /// Internal data of an IEC timer: 10 bytes.
-    TimerState,
-}
-
 use super::further::FURTHER;
+pub(in crate::plc::step7) use super::rows::{Kind, System, SystemBlock};
+use super::rows::{RETURN, row, sfc};
 
 use Kind::{
     Any, Bool, Byte, DInt, DWord, Date, DateTime, Information, Int, Real, S5Time, Text, Time, TimeOfDay, TimerState,
@@ -140,24 +16,10 @@ use Kind::{
 };
 use Section::{Input, Output, Static};
 
-pub(super) const fn sfc(number: u16) -> Option<BlockName> {
-    Some(BlockName { kind: BlockKind::Sfc, number })
-}
-
 const fn sfb(number: u16) -> Option<BlockName> {
     Some(BlockName { kind: BlockKind::Sfb, number })
 }
 
-pub(super) const fn row(
-    system: System,
-    block: Option<BlockName>,
-    name: &'static str,
-    parameters: &'static [(&'static str, Section, Kind)],
-) -> SystemBlock {
-    SystemBlock { system, block, name, parameters }
-}
-
-pub(super) const RETURN: (&str, Section, Kind) = ("RET_VAL", Output, Int);
 const IEC_TIMER: &[(&str, Section, Kind)] = &[
     ("IN", Input, Bool),
     ("PT", Input, Time),

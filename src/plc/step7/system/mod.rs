@@ -8,8 +8,8 @@ mod iec;
 mod interface;
 mod interrupts;
 mod library;
+mod rows;
 mod transfer;
 
-pub(in crate::plc::step7) use answers::HoursMeter;
 pub(in crate::plc::step7) use interface::{BASIC, SYSTEM, System, SystemBlock, by_name, by_number, layout_of};
 pub(in crate::plc::step7) use transfer::Region;
