@@ -35,8 +35,8 @@ fn chain(session: &Session, signal: &str) -> String {
     session.trace().why(location, machine.time(), machine).expect("an edge")
 }
 
-#[test]
-fn edges_name_the_machine_data_the_fault_and_the_power_on_that_they_follow_from() {
+/// A gantry whose axes have all enables.
+fn gantry() -> Session {
     let plc = program("everything_on", (), |(), io| {
         for axis in io.axes() {
             io.to_nck.axis(axis).set_position_measuring_system_1(true);
@@ -44,7 +44,12 @@ fn edges_name_the_machine_data_the_fault_and_the_power_on_that_they_follow_from(
             io.to_nck.axis(axis).set_pulse_enable(true);
         }
     });
-    let mut gantry = Session::open("g1_example").unwrap().with_program(plc.boxed());
+    Session::open("g1_example").unwrap().with_program(plc.boxed())
+}
+
+#[test]
+fn edges_name_the_machine_data_the_fault_and_the_power_on_that_they_follow_from() {
+    let mut gantry = gantry();
     gantry.watch(&["X.axis_stationary", "X.drive_ready", "X.traverse_command_minus"]).unwrap();
     gantry.set("X.traversing_key_minus", 1).unwrap();
     gantry.wait("X.axis_stationary == 0 && X.velocity < -1990", "5s").unwrap();
@@ -97,4 +102,25 @@ fn causes_are_compared_with_what_the_control_read() {
     let unmeasured = case.scenario.prepare(case.profile, &Programs::ready()).unwrap().run();
     let [finding, ..] = &findings(unmeasured.session())[..] else { panic!("a finding") };
     assert_eq!(finding.fault, CauseFault::Untrue("Y.traversing_key_plus".to_owned(), 1, 0), "{finding}");
+}
+
+/// The chain of 61.5 leads to the last of its conditions that became true, not only to a controller enable that was always there.
+#[test]
+fn position_control_names_what_let_it_go_on() {
+    let mut gantry = gantry();
+    gantry.watch(&["X.position_controller_active", "X.speed_controller_active"]).unwrap();
+    gantry.wait("X.position_controller_active", "1s").unwrap();
+    let why = chain(&gantry, "X.position_controller_active");
+    assert!(why.contains("after O-20: pulses enabled"), "{why}");
+    gantry.set("nck.emergency_stop", 1).unwrap();
+    gantry.wait("!X.position_controller_active", "3s").unwrap();
+    gantry.set("nck.emergency_stop", 0).unwrap();
+    gantry.run("200ms").unwrap();
+    gantry.set("nck.acknowledge_emergency_stop", 1).unwrap();
+    gantry.set("mode_group_1.mode_group_reset", 1).unwrap();
+    gantry.wait("X.position_controller_active", "1s").unwrap();
+    for signal in ["X.position_controller_active", "X.speed_controller_active"] {
+        let why = chain(&gantry, signal);
+        assert!(why.contains("after E-06: emergency stop acknowledged"), "{why}");
+    }
 }

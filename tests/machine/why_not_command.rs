@@ -360,3 +360,35 @@ fn why_not_knows_spindles_brakes_positioning_tests_and_overlays() {
         assert!(below.contains(words) && !below.contains(not), "{scenario} {signal}\n{head}\n{below}");
     }
 }
+
+/// A block that waits for an axis on its own way names what holds that axis: feed stop, override, enable; also behind POSA, by WAITP.
+#[test]
+fn a_block_that_waits_for_a_positioning_axis_names_what_holds_it() {
+    let directory = directory("why_not_positioning");
+    let feed_stop = "✗ Y.feed_stop (DB32.DBX4.3) = 1, wanted 0";
+    for (file, nc, force, words) in [
+        ("stop", "N10 POS[Y]=50 FA[Y]=3000", "\"Y.feed_stop\" = 1", feed_stop),
+        ("posa", "N10 POSA[Y]=50 FA[Y]=3000\nN20 WAITP(Y)", "\"Y.feed_stop\" = 1", feed_stop),
+        (
+            "override",
+            "N10 POS[Y]=50 FA[Y]=3000",
+            "\"Y.feed_override\" = \"0%\", \"Y.override_active\" = 1",
+            "✗ effective override of Y: 0 %, wanted above 0 %",
+        ),
+        (
+            "enable",
+            "N10 POS[Y]=50 FA[Y]=3000",
+            "\"Y.controller_enable\" = 0",
+            "✗ Y.position_controller_active (DB32.DBX61.5) = 0, wanted 1",
+        ),
+    ] {
+        let scenario = format!(
+            "title = \"t\"\nmachine = \"portal\"\nplc = \"enable_all\"\nnc = '''\n{nc}\nM30\n'''\n\
+             [[step]]\nrun = \"100ms\"\n[[step]]\nset = {{ \"DB11.DBX0.0\" = 1 }}\n[[step]]\nforce = {{ {force} }}\n\
+             [[step]]\nrun = \"300ms\"\n[[step]]\npulse = \"CHAN1.nc_start\"\nfor = \"20ms\"\n[[step]]\nrun = \"500ms\"\n"
+        );
+        fs::write(directory.join(file), scenario).unwrap();
+        let output = opennck(&["why-not", file, "CHAN1.m2_m30_active"], &directory);
+        assert!(out(&output).contains(words), "{file}: {}{}", out(&output), err(&output));
+    }
+}

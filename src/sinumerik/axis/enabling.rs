@@ -17,7 +17,7 @@
 use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::motion::Brake;
 use crate::motion::Motion;
-use crate::sinumerik::alarms::{self, Reaction};
+use crate::sinumerik::alarms::{self, Alarm, Reaction};
 use crate::sinumerik::axis::controllers::{ControllerState, STEP};
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::inputs::{axis_signal, nck_signal};
@@ -171,7 +171,7 @@ impl State {
                     self.axes[axis].enabling.controllers()[2],
                     !self.axes[axis].setpoint.is_at_rest() && !self.axes[axis].speed_controlled,
                 );
-                self.step_control(axis, &conditions, disable_cycles);
+                self.step_control(axis, &unit, &conditions, disable_cycles);
                 if was_on && moved && !self.axes[axis].enabling.pulses_enabled() {
                     self.report_follow_up_in_motion(axis);
                 }
@@ -307,6 +307,26 @@ impl State {
         conditions
     }
 
+    /// The last event of this cycle that made a condition of position control true: pulses, measuring system, the end of follow-up.
+    fn allowed_by(&self, unit: &Unit) -> EventId {
+        let of_axes = unit.members().flat_map(|axis| {
+            let causes = &self.axes[axis].causes;
+            [causes.drive, causes.measuring_system]
+        });
+        of_axes.filter(|event| self.log.is_of_this_cycle(*event)).fold(self.tracks_ended(unit), EventId::max)
+    }
+
+    /// What ended an emergency stop, or an alarm of a unit with the reaction follow-up, in this cycle.
+    fn tracks_ended(&self, unit: &Unit) -> EventId {
+        let by_alarm = self.alarms.last_end(|raised| {
+            let tracks = Alarm::find(raised.number).is_some_and(|alarm| alarm.reaction.has(Reaction::FOLLOW_UP));
+            tracks && unit.members().any(|axis| raised.place == Place::Axis(axis))
+        });
+        let stop = &self.emergency_stop;
+        let acknowledged = !stop.active && self.log.is_of_this_cycle(stop.cause);
+        if acknowledged { by_alarm.max(stop.cause) } else { by_alarm }
+    }
+
     /// The enable that an axis of a unit does not have.
     pub(in crate::sinumerik) fn missing_enable(&self, unit: &Unit, to_nck: &ToNck) -> Input {
         let missing = |axis| Some((axis, self.axes[axis].missing_enable(&to_nck.axes[axis])?.0));
@@ -314,7 +334,7 @@ impl State {
         found.map_or(Input::None, |(axis, signal)| axis_signal(axis, signal, false))
     }
 
-    fn step_control(&mut self, number: AxisNumber, conditions: &Conditions, disable_cycles: u64) {
+    fn step_control(&mut self, number: AxisNumber, unit: &Unit, conditions: &Conditions, disable_cycles: u64) {
         let before = self.axes[number].enabling;
         let wanted = conditions.enable && conditions.healthy && conditions.tracks.is_none();
         let powered = self.axes[number].enabling.pulses_enabled();
@@ -324,7 +344,10 @@ impl State {
             if powered { ControllerState::Braking(disable_cycles) } else { ControllerState::Off }
         };
         let control = match before.control {
-            ControllerState::Off if wanted => ControllerState::SwitchingOn(0),
+            ControllerState::Off if wanted => {
+                self.axes[number].causes.allowed = self.allowed_by(unit);
+                ControllerState::SwitchingOn(0)
+            }
             ControllerState::Off => ControllerState::Off,
             // The brake may be open already.
             ControllerState::SwitchingOn(_) if !wanted && powered && brake == Brake::Open => {
@@ -365,7 +388,10 @@ impl State {
             let (rule, input, parent) = if wanted && goes_off {
                 (Rule::SwitchingOffGoesOn, Input::None, causes.enabling)
             } else if wanted {
-                (Rule::ControllerOn, axis_signal(number, axis_to_nck::controller_enable, true), EventId::NONE)
+                // Position control waits for the brake, the other controllers do not.
+                let brake = if after.controllers()[2] { causes.brake } else { EventId::NONE };
+                let enable = axis_signal(number, axis_to_nck::controller_enable, true);
+                (Rule::ControllerOn, enable, causes.allowed.max(brake))
             } else if let Some(tracks) = conditions.tracks {
                 tracks
             } else if follow_up && !before.follow_up && parked {
@@ -377,10 +403,27 @@ impl State {
             };
             let event = self.log.note_one(Place::Axis(number), rule, input, parent);
             self.axes[number].causes.enabling = event;
-            if before.follow_up != after.follow_up {
+            if before.follow_up && !after.follow_up && !wanted {
+                self.axes[number].causes.follow_up = self.follow_up_ended(number, unit, conditions);
+            } else if before.follow_up != after.follow_up {
                 self.axes[number].causes.follow_up = event;
             }
         }
+    }
+
+    /// What ended follow-up before position control is active: its reason is gone, or the enables changed.
+    fn follow_up_ended(&mut self, number: AxisNumber, unit: &Unit, conditions: &Conditions) -> EventId {
+        let tracks_ended = self.tracks_ended(unit);
+        if tracks_ended.is_some() {
+            return tracks_ended;
+        }
+        let (rule, missing) = conditions.missing;
+        let second = if conditions.enable {
+            axis_signal(number, axis_to_nck::controller_enable, true)
+        } else {
+            axis_signal(number, axis_to_nck::follow_up_mode, false)
+        };
+        self.log.note(Place::Axis(number), rule, [missing, second, Input::None], EventId::NONE)
     }
 }
 

@@ -27,6 +27,8 @@ pub(in crate::sinumerik) struct Causes {
     pub drive: EventId,
     /// 61.5 to 61.7.
     pub enabling: EventId,
+    /// The last condition of position control that became true.
+    pub allowed: EventId,
     /// 61.3.
     pub follow_up: EventId,
     /// 92.5.

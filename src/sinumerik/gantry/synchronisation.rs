@@ -75,8 +75,9 @@ impl Grouping {
         self.misalignments(view).find(|&(axis, difference)| difference.abs() > limit(axis))
     }
 
-    /// The common position: MD34100 of the leading axis after referencing, or with MD34330 = 1 (REF-20) and otherwise its actual position (REF-15). A leading axis
-    /// that is not at rest there returns to it; otherwise its actual value would differ from the others.
+    /// The common position: MD34100 of the leading axis after referencing, or with MD34330 = 1 (REF-20) and otherwise its position (REF-15).
+    /// A leading axis that runs out returns to its actual value. One that rests does not move, and the others go to its setpoint (C-78): a
+    /// deviation within the window of exact stop would otherwise stay between the setpoints of the coupling.
     fn decouple(&mut self, view: &View<'_>) {
         let leader = self.coupling.leader();
         let axis = &view.axes[leader];
@@ -86,7 +87,8 @@ impl Grouping {
         let to_reference_point = self.from_referencing && !stays_after_referencing(view, leader);
         let moves = if self.from_referencing || runs_out { Moves::All } else { Moves::Followers };
         let reference = to_reference_point.then(|| Target::Given(axis.approach.set_position()));
-        let target = reference.unwrap_or(Target::LeaderActual);
+        let own = if moves == Moves::Followers { Target::LeaderSetpoint } else { Target::LeaderActual };
+        let target = reference.unwrap_or(own);
         self.coupling.begin_realignment(Realign { moves, target }, view.axes);
     }
 

@@ -116,24 +116,13 @@ impl State {
     /// Takes over what the PLC has selected, as soon as it may take effect.
     pub(super) fn take_program_control(&mut self, run: &mut Run, stage: &Stage<'_>) {
         let signals = &stage.to_nck.channels[stage.channel];
-        let stopped = matches!(self.programs[stage.channel].state, ProgramState::Stopped | ProgramState::Interrupted);
-        let skips = skip_levels(stage.channel, stage.to_nck);
-        if skips != run.skips {
-            match stage.own.skip_change {
-                ChangeTime::BlockEnd if stopped && run.phase == Phase::Between => {
-                    run.skips = skips;
-                    self.read_again_behind(run, 0, stage);
-                }
-                ChangeTime::AtOnce => run.change = run.change.or(Some(Change::Skips)),
-                ChangeTime::BlockEnd | ChangeTime::StopPreparation => {}
-            }
+        self.take_skip_levels_while_stopped(run, stage);
+        if skip_levels(stage.channel, stage.to_nck) != run.skips && stage.own.skip_change == ChangeTime::AtOnce {
+            run.change = run.change.or(Some(Change::Skips));
         }
-        if signals.activate_dry_run_feedrate() != run.dry_run {
-            match stage.own.dry_run_change {
-                ChangeTime::AtOnce => run.change = run.change.or(Some(Change::DryRun)),
-                ChangeTime::BlockEnd if run.phase == Phase::Between => run.dry_run = !run.dry_run,
-                ChangeTime::BlockEnd | ChangeTime::StopPreparation => {}
-            }
+        let dry_run = signals.activate_dry_run_feedrate();
+        if dry_run != run.dry_run && stage.own.dry_run_change == ChangeTime::AtOnce {
+            run.change = run.change.or(Some(Change::DryRun));
         }
         let level_signals = [signals.delete_number_of_passes(), signals.program_level_abort()];
         let were = std::mem::replace(&mut run.level_signals_were, level_signals);
@@ -146,6 +135,17 @@ impl State {
         let rests = run.path.velocity() <= 0.0 && run.returning.is_none();
         if run.change.is_some() && rests && (run.change != Some(Change::Level) || !moves(run)) {
             self.change(run, stage);
+        }
+    }
+
+    /// MD10706 = 0: skip levels take effect while the program is stopped at the end of a block.
+    pub(super) fn take_skip_levels_while_stopped(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let stopped = matches!(self.programs[stage.channel].state, ProgramState::Stopped | ProgramState::Interrupted);
+        let skips = skip_levels(stage.channel, stage.to_nck);
+        let at_block_end = stage.own.skip_change == ChangeTime::BlockEnd && run.phase == Phase::Between;
+        if stopped && at_block_end && skips != run.skips {
+            run.skips = skips;
+            self.read_again_behind(run, 0, stage);
         }
     }
 
@@ -243,6 +243,14 @@ impl Run {
             Some(read) => read.behind.interpreter = interpreter,
             None => self.behind.interpreter = interpreter,
         }
+    }
+
+    /// MD10704 = 0: the dry run takes effect when the next block begins. Returns whether it has changed.
+    pub(super) fn take_dry_run_at_block_end(&mut self, stage: &Stage<'_>) -> bool {
+        let wanted = stage.to_nck.channels[stage.channel].activate_dry_run_feedrate();
+        let changes = wanted != self.dry_run && stage.own.dry_run_change == ChangeTime::BlockEnd;
+        self.dry_run ^= changes;
+        changes
     }
 
     /// The feed of a block: that of the dry run, or of a search by program test.

@@ -1,13 +1,14 @@
 //! The end of a block: when its motion is over, and whether the program then stops, ends or goes on.
 
 use crate::image::channel_to_nck;
-use crate::nc_program::{Action, End, groups};
+use crate::nc_program::{End, groups};
 use crate::sinumerik::inputs::channel_signal;
-use crate::sinumerik::parameters::programs::OutputTime;
+use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
 use crate::sinumerik::program::executable::{Criterion, Executable, ProgrammedStop};
 use crate::sinumerik::program::execution::BlockProgress;
 use crate::sinumerik::program::path::Stage;
-use crate::sinumerik::program::state::{Phase, Run, block_name};
+use crate::sinumerik::program::positioning::AxisPositioning;
+use crate::sinumerik::program::state::{Phase, Preparation, Run, block_name};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet};
@@ -38,18 +39,7 @@ impl State {
             return false;
         }
         let Some(block) = run.queue.front() else { return true };
-        if run.positionings.iter().any(|positioning| positioning.waits && block.positions.contains(positioning)) {
-            return false;
-        }
-        // RELEASE gives no axis away that POSA still moves.
-        let waited = |action: &Action| match action {
-            Action::WaitForPosition(names) | Action::Release(names) => names.iter().any(|name| {
-                let axis = stage.own.axes.machine_axes.get(usize::from(name.0));
-                run.positionings.iter().any(|one| Some(&one.axis) == axis)
-            }),
-            _ => false,
-        };
-        if block.actions.iter().any(waited) || !self.references_are_done(run) {
+        if run.positionings.iter().any(|one| block.waits_for(one, stage.own)) || !self.references_are_done(run) {
             return false;
         }
         if !self.spindles_have_arrived(&block.actions, stage.own, stage.parameters) {
@@ -180,6 +170,16 @@ impl State {
 }
 
 impl Run {
+    /// Whether a program that runs waits for the end of a positioning: its block does, or nothing but the end of the program is left.
+    pub(in crate::sinumerik) fn awaits(&self, running: &AxisPositioning, own: &ProgramParameters) -> bool {
+        match (self.queue.front(), self.phase) {
+            (None, _) => matches!(self.preparation, Preparation::Ended),
+            (Some(block), Phase::Moving) => block.waits_for(running, own),
+            (Some(block), Phase::After) => block.end == Some(End::Program),
+            (Some(_), Phase::Between | Phase::Before) => false,
+        }
+    }
+
     /// Whether the path can pass from one block to the next without standstill, whatever G64 and the interface say.
     pub(super) fn can_pass(&self, last: &Executable, next: &Executable) -> bool {
         let stops = last.by_handwheel

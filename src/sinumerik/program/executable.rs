@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::motion::path::{PATH_AXES, PathBlock, PerPathAxis};
 use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, g};
-use crate::sinumerik::parameters::programs::OutputTime;
+use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
 use crate::sinumerik::program::auxiliary::Package;
 use crate::sinumerik::program::positioning::AxisPositioning;
 use crate::units::{AxisNumber, AxisSet, Position};
@@ -69,6 +69,18 @@ pub(in crate::sinumerik) struct Executable {
 }
 
 impl Executable {
+    /// Whether the block does not end before a positioning that runs: POS in it, or WAITP or RELEASE of its axis.
+    pub(in crate::sinumerik) fn waits_for(&self, running: &AxisPositioning, own: &ProgramParameters) -> bool {
+        // RELEASE gives no axis away that POSA still moves.
+        let waited = |action: &Action| match action {
+            Action::WaitForPosition(names) | Action::Release(names) => {
+                names.iter().any(|name| own.axes.machine_axes.get(usize::from(name.0)) == Some(&running.axis))
+            }
+            _ => false,
+        };
+        running.waits && self.positions.contains(running) || self.actions.iter().any(waited)
+    }
+
     pub(in crate::sinumerik) fn new(origin: Origin, modal: Modal) -> Self {
         Self {
             origin,

@@ -17,7 +17,7 @@ use crate::nc_program::{End, Library, g, groups};
 use crate::sinumerik::alarms::{Alarm, Reaction};
 use crate::sinumerik::machine_data::{Element, MachineData, TableValue, Target};
 use crate::sinumerik::nck::Nck;
-use crate::sinumerik::parameters::programs::{ChangeTime, OutputTime};
+use crate::sinumerik::parameters::programs::OutputTime;
 use crate::sinumerik::program::control::at_stop;
 use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::geometry;
@@ -166,6 +166,8 @@ impl State {
         }
         if runs && !matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting) {
             self.note_interruption_point(run, stage);
+            // NC start may follow in the next cycle.
+            self.take_skip_levels_while_stopped(run, stage);
         }
         self.show_interruption(channel, stage.parameters);
         true
@@ -233,9 +235,7 @@ impl State {
     /// The path has passed into the next block without a stop.
     fn pass_to_next_block(&mut self, run: &mut Run, stage: &Stage<'_>) {
         run.take_executed();
-        let wanted = stage.to_nck.channels[stage.channel].activate_dry_run_feedrate();
-        if wanted != run.dry_run && stage.own.dry_run_change == ChangeTime::BlockEnd {
-            run.dry_run = wanted;
+        if run.take_dry_run_at_block_end(stage) {
             run.refeed(stage);
         }
         self.begin_block(run, stage);
@@ -405,6 +405,7 @@ impl State {
             self.raise_block_alarm(alarm, run, stage);
             return BlockProgress::Waits;
         }
+        run.take_dry_run_at_block_end(stage);
         self.begin_block(run, stage);
         self.output(run, OutputTime::Before, stage);
         run.phase = Phase::Before;

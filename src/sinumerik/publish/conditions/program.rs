@@ -2,7 +2,7 @@
 
 use crate::control::{Condition, Fact, Question, fact};
 use crate::image::{
-    ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck,
+    ChannelAuxiliary, axis_from_nck, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck,
     mode_group_from_nck, mode_group_to_nck, nck_from_nck,
 };
 use crate::nc_program::g;
@@ -274,6 +274,11 @@ impl Look<'_> {
         all.extend(self.no_spindle_awaited(channel));
         if run.phase == Phase::Moving {
             all.extend(self.path_not_held(run, &stage));
+        }
+        for one in run.positionings.iter().filter(|one| run.awaits(one, stage.own)) {
+            let unit = self.unit(one.axis);
+            all.push(self.not_held(&unit));
+            all.extend(unit.members().map(|axis| self.axis(axis, axis_from_nck::position_controller_active, true)));
         }
         let block = match run.queue.front() {
             Some(block) => format!("{}, {}", block.origin.name.as_str(), phase(run.phase)),
