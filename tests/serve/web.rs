@@ -295,7 +295,8 @@ fn events_carry_every_edge() {
     let mut found = Vec::new();
     while found.len() < 2 {
         let (_, step) = events.next();
-        let edges = step["edges"].as_array().unwrap();
+        // On a busy computer, an event between two steps has no edges.
+        let Some(edges) = step["edges"].as_array() else { continue };
         found.extend(edges.iter().filter(|edge| edge["i"] == json!(index)).cloned());
     }
     assert_eq!(found[0], json!({"t": 1.002, "i": index, "v": 1.0, "by": "outside"}));
