@@ -276,12 +276,14 @@ fn waits_in_vain(due: Instant, ended: &mpsc::Receiver<()>, is_changed: impl Fn()
     }
 }
 
-/// Goes back in time instead of taking a step, and pauses there.
+/// Goes back in time instead of taking a step, and pauses there. A machine that cannot go back goes on.
 fn go_back(shared: &Shared, asked: Return) {
-    shared.driving.pause(true);
     let mut clocked = shared.lend_for_a_step();
     let orders = shared.inbox.take();
     let went = clocked.go_back(asked.cycle);
+    if went.is_ok() {
+        shared.driving.pause(true);
+    }
     let refused = clocked.take(orders);
     shared.give_back(clocked);
     for line in refused {

@@ -1,6 +1,6 @@
 // The alarms that are pending: number, place, text, cause, and what cancels them.
 
-import { body, el, say, seconds } from "./dom.js";
+import { body, el, seconds } from "./dom.js";
 import { on } from "./machine.js";
 
 export function begin() {
@@ -8,10 +8,11 @@ export function begin() {
   const list = el("ul", { class: "alarms", role: "list" });
   const none = el("p", {}, "none");
   // Told once for each alarm, not with every change of the list.
-  const spoken = el("p", { class: "unseen", role: "alert" });
+  const spoken = el("div", { class: "unseen", role: "alert", "aria-atomic": "false", "aria-relevant": "additions" });
   place.append(none, list, spoken);
   let shown = "";
-  let known = new Set();
+  /** What is spoken of each pending alarm. */
+  const known = new Map();
   on("step", ({ now }) => {
     const text = JSON.stringify(now.alarms);
     if (text === shown) return;
@@ -25,8 +26,16 @@ export function begin() {
           alarm.time === null ? "" : `Since ${seconds(alarm.time)}. `,
           alarm.cancelled_by ? `Cancelled by: ${alarm.cancelled_by}.` : ""))));
     const names = new Set(now.alarms.map((alarm) => `${alarm.name} ${alarm.text}`));
-    const fresh = [...names].filter((name) => !known.has(name));
-    if (fresh.length) say(spoken, `Alarm ${fresh.join("; ")}`);
-    known = names;
+    for (const [name, line] of known) {
+      if (names.has(name)) continue;
+      line.remove();
+      known.delete(name);
+    }
+    for (const name of names) {
+      if (known.has(name)) continue;
+      const line = el("p", {}, `Alarm ${name}`);
+      known.set(name, line);
+      spoken.append(line);
+    }
   });
 }

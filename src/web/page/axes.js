@@ -1,11 +1,17 @@
 // The axes: positions, following errors, enables and states.
 
 import { body, button, el, say, set } from "./dom.js";
-import { index, machine, on } from "./machine.js";
+import { index, machine, on, value } from "./machine.js";
 import { ask } from "./why.js";
 
 const COLUMNS = ["Position", "Setpoint", "Velocity", "Following error", "Synchronism difference", "Slide"];
 const DIGITS = [4, 4, 1, 4, 4, 4];
+
+/** Signals that tell of something wrong while they are 1; others of an axis tell only what it does. */
+const KINDS = new Map([["feed_stop", "warning"], ["axis_specific_alarm", "alarm"], ["error", "alarm"]]);
+/** What only an axis of a gantry grouping has. */
+const OF_GANTRY = ["gantry_leading_axis", "gantry_grouping_is_synchronized", "gantry_synchronization_ready_to_start"];
+const DIFFERENCE = COLUMNS.indexOf("Synchronism difference");
 
 /** Enables that an axis needs, then its states; those that the machine has are shown. */
 const SIGNALS = [
@@ -31,6 +37,11 @@ const SIGNALS = [
   ["gantry_coupled", "coupled"],
 ];
 
+/** Whether the control says that an axis is in no gantry grouping. */
+function isAlone(axis) {
+  return value(`${axis}.gantry_axis`) === 0;
+}
+
 export function begin() {
   const place = body("axes");
   const cells = [];
@@ -42,9 +53,9 @@ export function begin() {
       const at = index(`${axis.name}.${name}`);
       if (at === undefined || machine.catalogue.signals[at].bits !== 1) return null;
       const state = el("span", { class: "bit" });
-      const lamp = button("", () => ask(`${axis.name}.${name}`), { class: "lamp", title: machine.catalogue.signals[at].doc });
+      const lamp = button("", () => ask(`${axis.name}.${name}`), { class: "lamp", "data-kind": KINDS.get(name), title: machine.catalogue.signals[at].doc });
       lamp.append(label, " ", state);
-      lamps.push([at, lamp, state]);
+      lamps.push([at, lamp, state, OF_GANTRY.includes(name) ? axis.name : null]);
       return lamp;
     });
     return el("tbody", {},
@@ -59,12 +70,13 @@ export function begin() {
   on("step", ({ now }) => {
     now.axes.forEach((values, axis) => values.forEach((value, at) => {
       // Half a digit below zero is no negative number.
-      const shown = value.toFixed(DIGITS[at]);
+      const shown = at === DIFFERENCE && isAlone(machine.catalogue.axes[axis].name) ? "-" : value.toFixed(DIGITS[at]);
       say(cells[axis][at], Number(shown) === 0 ? (0).toFixed(DIGITS[at]) : shown);
     }));
-    for (const [at, lamp, state] of lamps) {
+    for (const [at, lamp, state, gantry] of lamps) {
       const is = machine.values[at] === 1;
-      say(state, is ? "1" : "0");
+      say(state, is ? lamp.dataset.kind ? "1 !" : "1" : "0");
+      if (gantry !== null) lamp.hidden = isAlone(gantry);
       set(lamp, "data-on", String(is));
     }
   });

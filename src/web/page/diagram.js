@@ -1,7 +1,7 @@
 // The timing diagram: bits as waves, values as curves, alarms as bars, scrolling with the machine. Its look is that of `--svg`.
 
 import { body, button, el, field, say, seconds, set, svg } from "./dom.js";
-import { index, machine, on } from "./machine.js";
+import { bitOf, index, machine, message, on } from "./machine.js";
 
 const KEY = "opennck diagram";
 const ROW = 26;
@@ -49,6 +49,37 @@ function axisValue(name) {
   return axis >= 0 && column >= 0 ? [axis, column] : null;
 }
 
+/** A bit of inputs, outputs or flags. */
+function isMemory(name) {
+  return /^[IQM]\d{1,5}\.[0-7]$/.test(name);
+}
+
+function isKnown(name) {
+  return index(name) !== undefined || axisValue(name) !== null || isMemory(name);
+}
+
+/** The number of letters to insert, remove or change to make one text the other. */
+function distance(one, other) {
+  let row = Array.from({ length: other.length + 1 }, (_, at) => at);
+  for (let at = 0; at < one.length; at += 1) {
+    const next = [at + 1];
+    for (let to = 0; to < other.length; to += 1) {
+      next.push(Math.min(next[to] + 1, row[to + 1] + 1, row[to] + (one[at] === other[to] ? 0 : 1)));
+    }
+    row = next;
+  }
+  return row.at(-1);
+}
+
+/** The known name that is most like another one; null if none is. */
+function nearest(name, names) {
+  const [near, apart] = names.reduce((best, known) => {
+    const apart = distance(name.toLowerCase(), known.toLowerCase());
+    return apart < best[1] ? [known, apart] : best;
+  }, [null, Infinity]);
+  return apart <= Math.max(2, name.length / 3) ? near : null;
+}
+
 function first() {
   const [axis] = machine.catalogue.axes;
   const names = ["mode_group_1.active_machine_function_ref", ...[
@@ -73,11 +104,13 @@ function colour(by) {
 function course(at, from, to) {
   let before;
   const edges = [];
+  const isOther = typeof at === "string";
   for (const edge of machine.edges) {
-    if (edge.i !== at) continue;
+    if ((isOther ? edge.a : edge.i) !== at) continue;
     if (edge.t < from) before = edge.v;
     else if (edge.t <= to) edges.push(edge);
   }
+  if (before === undefined && isOther) before = edges.length ? 1 - edges[0].v : bitOf(at);
   if (before === undefined) {
     before = edges.length && machine.catalogue.signals[at].bits === 1 ? 1 - edges[0].v : edges.length ? null : machine.values[at];
   }
@@ -175,6 +208,7 @@ export function draw() {
     const height = value ? CURVE : ROW;
     name(one, height);
     if (value) curve(rows, value, y, x, from, to);
+    else if (isMemory(one)) bit(rows, one, y, x, from, to);
     else if (at !== undefined && machine.catalogue.signals[at].bits === 1) bit(rows, at, y, x, from, to);
     else if (at !== undefined) number(rows, at, y, x, from, to);
     y += height;
@@ -204,11 +238,11 @@ function edges(to) {
   const found = [];
   for (let at = machine.edges.length - 1; at >= 0 && found.length < LINES; at -= 1) {
     const edge = machine.edges[at];
-    if (edge.t <= to && (wanted.has(edge.i) || edge.kind)) found.push(edge);
+    if (edge.t <= to && (wanted.has(edge.i) || edge.kind || (edge.a !== undefined && picked.includes(edge.a)))) found.push(edge);
   }
   const lines = found.map(({ t, i, a, v, by, why, kind }) => {
     const change = kind === "alarm" ? (v ? "alarm " : "cancelled: ") : "";
-    const what = i === undefined ? change + a : `${machine.catalogue.signals[i].symbol} = ${v}`;
+    const what = i === undefined ? change + a + (kind || v === undefined ? "" : ` = ${v}`) : `${machine.catalogue.signals[i].symbol} = ${v}`;
     return `${seconds(t)}  ${what}${by ? `  ${by}` : ""}${why ? `  ${why}` : ""}`;
   });
   if (log.dataset.shown === lines.join("\n")) return;
@@ -222,14 +256,20 @@ export function begin() {
   } catch {
     picked = [];
   }
-  picked = picked.filter((name) => index(name) !== undefined || axisValue(name));
+  picked = picked.filter(isKnown);
   if (!picked.length) picked = first();
   const names = [...machine.catalogue.axes.flatMap(({ name }) => VALUES.map((value) => `${name}.${value}`)),
     ...machine.catalogue.signals.map(({ symbol }) => symbol)];
   const add = el("input", { type: "text", list: "plots", autocomplete: "off", placeholder: "X.position" });
   const take = () => {
     const name = add.value.trim();
-    if (index(name) === undefined && !axisValue(name)) return;
+    if (!name) return;
+    if (!isKnown(name)) {
+      const near = nearest(name, names);
+      message(`expected a signal, a value of an axis or a bit such as M10.0, found ${name}${near ? `: did you mean ${near}?` : ""}`, true);
+      return;
+    }
+    message("");
     choose(name, true);
     add.value = "";
   };

@@ -26,29 +26,40 @@ function fact(name) {
 
 /** The time to which the slider points; it follows the machine while nobody moves it. */
 let isHeld = false;
+/** The seconds back from now, if they were typed. */
+let ago = null;
 
 function back() {
   const slider = el("input", { type: "range", min: 0, max: 0, step: "any", id: "moment" });
   const shown = el("output", { for: "moment" });
+  const before = el("input", { type: "number", min: 0, step: "any", class: "short" });
   const hold = () => {
     isHeld = true;
+    ago = null;
+    before.value = (machine.now.time - Number(slider.value)).toFixed(2);
     say(shown, `${Number(slider.value).toFixed(2)} s`);
   };
+  before.addEventListener("input", () => {
+    ago = before.value === "" ? null : Math.max(Number(before.value) || 0, 0);
+    isHeld = false;
+  });
   const go = async () => {
     const { now, catalogue } = machine;
-    const cycles = Math.round((now.time - Number(slider.value)) / catalogue.cycle);
+    const cycles = Math.round((ago ?? now.time - Number(slider.value)) / catalogue.cycle);
     isHeld = false;
+    ago = null;
+    before.value = "";
     const first = Array.isArray(now.reach.Ok) ? now.reach.Ok[0] : 0;
     await command({ go_back: Math.max(now.cycle - cycles, first) });
   };
   slider.addEventListener("input", hold);
   const buttonBack = button("Go back", go);
   const form = el("details", { class: "back" }, el("summary", {}, "Back in time"),
-    el("div", { class: "row" }, field("Moment", slider), shown, buttonBack),
+    el("div", { class: "row" }, field("Moment", slider), shown, field("Seconds back", before), buttonBack),
     el("p", { class: "hint" }, ""));
   on("step", ({ now }) => {
     const reach = now.reach.Ok;
-    slider.disabled = buttonBack.disabled = !reach;
+    slider.disabled = before.disabled = buttonBack.disabled = !reach;
     say(form.querySelector(".hint"), reach
       ? `From ${seconds(reach[1])} on. The machine pauses there; what happened later is forgotten when it goes on.`
       : `${now.reach.Err}.`);
@@ -56,8 +67,9 @@ function back() {
     set(slider, "min", String(reach[1]));
     set(slider, "max", String(now.time));
     if (!isHeld) {
-      slider.value = now.time;
-      say(shown, `${now.time.toFixed(2)} s`);
+      const moment = Math.max(now.time - (ago ?? 0), reach[1]);
+      slider.value = moment;
+      say(shown, `${moment.toFixed(2)} s`);
     }
   });
   return form;
