@@ -45,6 +45,8 @@ struct Written<'a> {
     signals: Vec<Signal>,
     charts: Vec<Chart>,
     steps: Vec<Step>,
+    /// The codes of the feed override of the first channel with their percentages.
+    feed_overrides: Vec<(u8, u16)>,
 }
 
 #[derive(Serialize)]
@@ -106,6 +108,13 @@ impl Catalogue {
         });
         let exists = |channel: &ChannelNumber| machine.has_channel(*channel);
         let channels = ChannelNumber::all().filter(exists).filter_map(|channel| names.channels[channel].as_deref());
+        let channels: Vec<_> = channels.collect();
+        let feed =
+            machine.names().resolve(machine.memory(), &format!("{}.feed_override", channels.first().unwrap_or(&"")));
+        let coding = machine.override_coding();
+        let share = |location, code| Some((code, coding.percent(location, code)?));
+        let feed_overrides = feed.map(|location| (0..=u8::MAX).filter_map(|code| share(location, code)).collect());
+        let feed_overrides = feed_overrides.unwrap_or_default();
         let written = Written {
             title: &options.title,
             profile: names.profile.name(),
@@ -114,10 +123,11 @@ impl Catalogue {
             read_only: options.is_read_only,
             cycle: machine.cycle_time().seconds(),
             axes: axes.collect(),
-            channels: channels.collect(),
+            channels,
             signals,
             charts: charts(machine),
             steps,
+            feed_overrides,
         };
         let text = serde_json::to_string(&written).unwrap_or_default();
         let indices = locations.iter().enumerate().map(|(index, location)| (key(*location), index)).collect();

@@ -17,7 +17,9 @@ use super::catalogue::Catalogue;
 use super::options::WebOptions;
 use super::picture::{Edge, Now, Past, Written, edges, values};
 use super::why_not;
-use crate::live::{Batch, Follower, Handle};
+use crate::image::Location;
+use crate::live::{Batch, Follower, Handle, Order};
+use crate::machine::Command;
 use crate::source::Problem;
 use crate::trace::Watch;
 use crate::units::Time;
@@ -30,6 +32,8 @@ const HEARTBEAT: Duration = Duration::from_millis(500);
 const CLIENTS: usize = 64;
 /// The events that wait for a client, which is left out when it has more.
 const WAITING: usize = 16;
+/// The most signals that a client holds.
+const HELD: usize = 64;
 /// The most changes in one event. There are more only far above real time; the others are counted.
 const EDGES: usize = 4000;
 /// The changes that a new client gets.
@@ -49,9 +53,14 @@ struct Shared {
     /// The time of the machine after the last event.
     time: Time,
     clients: Vec<Client>,
+    /// The number of the last client.
+    last: u64,
 }
 
 struct Client {
+    number: u64,
+    /// What its pressed keys hold at 1.
+    held: Vec<Location>,
     sender: mpsc::Sender<Bytes>,
     /// It missed events.
     is_behind: bool,
@@ -65,6 +74,9 @@ struct Snapshot<'a> {
     recent: &'a VecDeque<Edge>,
     /// The client missed events, or changes were lost.
     lagged: bool,
+    /// The number of the client, in its first event.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    client: Option<u64>,
 }
 
 #[derive(Serialize)]
@@ -80,7 +92,7 @@ impl Hub {
         let catalogue = Catalogue::new(&live, options);
         let follower = Some(live.follow());
         let (past, recent, clients) = (Past::default(), VecDeque::new(), Vec::new());
-        let shared = Shared { follower, past, recent, time: Time::ZERO, clients };
+        let shared = Shared { follower, past, recent, time: Time::ZERO, clients, last: 0 };
         Self { live, catalogue, shared: Mutex::new(shared) }
     }
 
@@ -139,7 +151,6 @@ impl Hub {
     /// Sends an event to each client, a snapshot to those that missed something.
     fn tell(&self, edges: &[Edge], lost: usize) {
         let mut shared = self.lock();
-        shared.clients.retain(|client| !client.sender.is_closed());
         if shared.clients.is_empty() {
             return;
         }
@@ -148,7 +159,7 @@ impl Hub {
         let mut clients = std::mem::take(&mut shared.clients);
         let is_free = |client: &Client| client.sender.capacity() == client.sender.max_capacity();
         let snapshot = clients.iter().any(|client| client.is_behind && is_free(client));
-        let snapshot = snapshot.then(|| event("snapshot", &self.snapshot(&shared, true)));
+        let snapshot = snapshot.then(|| event("snapshot", &self.snapshot(&shared, true, None)));
         for client in &mut clients {
             let bytes = match (client.is_behind, &snapshot) {
                 (false, _) => &step,
@@ -160,30 +171,68 @@ impl Hub {
         shared.clients = clients;
     }
 
-    fn snapshot<'a>(&self, shared: &'a Shared, lagged: bool) -> Snapshot<'a> {
+    fn snapshot<'a>(&self, shared: &'a Shared, lagged: bool, client: Option<u64>) -> Snapshot<'a> {
         let (now, values) =
             self.live.look(|seen| (Now::of(seen, &self.live, &shared.past), values(seen.machine(), &self.catalogue)));
-        Snapshot { now, values, writers: shared.past.writers.iter().collect(), recent: &shared.recent, lagged }
+        Snapshot { now, values, writers: shared.past.writers.iter().collect(), recent: &shared.recent, lagged, client }
     }
 
     /// The machine after its last step as JSON.
     pub(super) fn state(&self) -> String {
         let shared = self.lock();
-        json(&self.snapshot(&shared, false))
+        json(&self.snapshot(&shared, false, None))
     }
 
     /// A new client; its first event is a snapshot. `None` if there are too many.
-    pub(super) fn join(&self) -> Option<Events> {
+    pub(super) fn join(self: &Arc<Self>) -> Option<Events> {
         let mut shared = self.lock();
-        shared.clients.retain(|client| !client.sender.is_closed());
         if shared.clients.len() >= CLIENTS {
             return None;
         }
         let (sender, receiver) = mpsc::channel(WAITING);
+        shared.last += 1;
+        let number = shared.last;
         // The next event, within half a second, continues after this one: both are made under the lock.
-        let is_behind = sender.try_send(event("snapshot", &self.snapshot(&shared, false))).is_err();
-        shared.clients.push(Client { sender, is_behind });
-        Some(Events(receiver))
+        let is_behind = sender.try_send(event("snapshot", &self.snapshot(&shared, false, Some(number)))).is_err();
+        shared.clients.push(Client { number, held: Vec::new(), sender, is_behind });
+        Some(Events { receiver, number, hub: Arc::clone(self) })
+    }
+
+    /// A client presses and releases keys: what it holds at 1 becomes 0 when its stream ends, at once if it has ended.
+    pub(super) fn hold(&self, number: u64, commands: &[Command]) {
+        let writes = commands.iter().filter_map(|command| {
+            let Command::Write { location, value } = command else { return None };
+            Some((*location, *value))
+        });
+        let mut shared = self.lock();
+        let Some(client) = shared.clients.iter_mut().find(|client| client.number == number) else {
+            self.let_go(writes.filter(|(_, value)| *value != 0).map(|(location, _)| location));
+            return;
+        };
+        for (location, value) in writes {
+            client.held.retain(|held| *held != location);
+            if value != 0 && client.held.len() < HELD {
+                client.held.push(location);
+            }
+        }
+    }
+
+    /// Writes 0 to what was held.
+    fn let_go(&self, held: impl IntoIterator<Item = Location>) {
+        let commands: Vec<_> = held.into_iter().map(|location| Command::Write { location, value: 0 }).collect();
+        if !commands.is_empty() {
+            // Nobody waits for this step.
+            let _ = self.live.order(Order { commands, ..Order::default() });
+        }
+    }
+
+    /// The stream of a client has ended.
+    fn leave(&self, number: u64) {
+        let mut shared = self.lock();
+        if let Some(at) = shared.clients.iter().position(|client| client.number == number) {
+            let client = shared.clients.swap_remove(at);
+            self.let_go(client.held);
+        }
     }
 
     /// What must hold before a signal has a value, as JSON.
@@ -195,13 +244,23 @@ impl Hub {
 }
 
 /// The events of a client.
-pub(super) struct Events(mpsc::Receiver<Bytes>);
+pub(super) struct Events {
+    receiver: mpsc::Receiver<Bytes>,
+    number: u64,
+    hub: Arc<Hub>,
+}
+
+impl Drop for Events {
+    fn drop(&mut self) {
+        self.hub.leave(self.number);
+    }
+}
 
 impl Stream for Events {
     type Item = Result<Bytes, std::convert::Infallible>;
 
     fn poll_next(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        self.get_mut().0.poll_recv(context).map(|bytes| bytes.map(Ok))
+        self.get_mut().receiver.poll_recv(context).map(|bytes| bytes.map(Ok))
     }
 }
 

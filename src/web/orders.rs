@@ -40,8 +40,13 @@ impl From<Problem> for Refusal {
     }
 }
 
-/// Executes a request.
-pub(super) async fn execute(live: &Handle, body: &[u8], protects: &Protects) -> Result<Taken, Refusal> {
+/// Executes a request. `holds` is told the commands that are queued.
+pub(super) async fn execute(
+    live: &Handle,
+    body: &[u8],
+    protects: &Protects,
+    holds: impl FnOnce(&[Command]),
+) -> Result<Taken, Refusal> {
     let json: Json = serde_json::from_slice(body).map_err(|error| {
         Problem::new(format!("expected JSON: {error}"), "write {\"set\": {\"X.traversing_key_plus\": 1}}")
     })?;
@@ -54,11 +59,11 @@ pub(super) async fn execute(live: &Handle, body: &[u8], protects: &Protects) -> 
         let what = "expected an object with one verb, found something else";
         return Err(Problem::new(what, "write {\"set\": {\"X.traversing_key_plus\": 1}}").into());
     };
-    order(live, table, protects)
+    order(live, table, protects, holds)
 }
 
 /// Queues the commands of a verb.
-fn order(live: &Handle, table: Table, protects: &Protects) -> Result<Taken, Refusal> {
+fn order(live: &Handle, table: Table, protects: &Protects, holds: impl FnOnce(&[Command])) -> Result<Taken, Refusal> {
     let commands = live.look(|seen| {
         let machine = seen.machine();
         let commands = commands(table, machine)?;
@@ -76,7 +81,8 @@ fn order(live: &Handle, table: Table, protects: &Protects) -> Result<Taken, Refu
         let what = "expected a machine with time for requests, found one with very many";
         return Err(Problem::new(what, "send them more slowly").into());
     }
-    let step = live.order(Order { commands, ..Order::default() });
+    let step = live.order(Order { commands: commands.clone(), ..Order::default() });
+    holds(&commands);
     Ok(live.look(|seen| {
         // The machine may have taken the step already.
         let cycle = (seen.machine().cycle() + step).saturating_sub(seen.step());

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::guard::{Guard, guard};
 use super::hub::Hub;
 use super::orders::{Protects, Refusal, execute};
+use crate::machine::Command;
 use crate::source::Problem;
 
 /// The longest body of a request.
@@ -57,6 +58,12 @@ struct Error<'a> {
 struct Why {
     signal: String,
     value: Option<u8>,
+}
+
+/// The number of the client whose key is pressed or released.
+#[derive(Deserialize)]
+struct Pressing {
+    client: Option<u64>,
 }
 
 #[derive(Deserialize)]
@@ -130,7 +137,12 @@ async fn recording(State(site): State<Site>) -> Response {
     ([(header::CONTENT_TYPE, kind), (header::CONTENT_DISPOSITION, disposition)], text).into_response()
 }
 
-async fn command(State(site): State<Site>, headers: HeaderMap, body: Bytes) -> Response {
+async fn command(
+    State(site): State<Site>,
+    Query(Pressing { client }): Query<Pressing>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Response {
     if site.is_read_only {
         let cure = "start it without --read-only";
         return error(StatusCode::FORBIDDEN, "the machine can only be looked at", cure);
@@ -139,7 +151,12 @@ async fn command(State(site): State<Site>, headers: HeaderMap, body: Bytes) -> R
         let cure = "open the address with #token=… that the server printed at its start";
         return error(StatusCode::FORBIDDEN, "a write from another computer needs the token", cure);
     }
-    match execute(site.hub.live(), &body, &site.protects).await {
+    let holds = |commands: &[Command]| {
+        if let Some(client) = client {
+            site.hub.hold(client, commands);
+        }
+    };
+    match execute(site.hub.live(), &body, &site.protects, holds).await {
         Ok(taken) => json(StatusCode::OK, serde_json::to_string(&taken).unwrap_or_default()),
         Err(Refusal::Wrong(problem)) => wrong(&problem),
         Err(Refusal::Forbidden(reason)) => error(StatusCode::FORBIDDEN, &reason, "write another address"),

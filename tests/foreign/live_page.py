@@ -192,6 +192,31 @@ def operate(chromium, program, axe_core, pictures, checks, expect):
     page.keyboard.up(" ")
     expect(key).to_have_attribute("aria-pressed", "false", timeout=10_000)
 
+    # A page that is left releases its keys, and so does the server when a stream ends.
+    def value(name):
+        at = [signal["symbol"] for signal in page.request.get(f"{server.address}/api/catalogue").json()["signals"]].index(name)
+        return page.request.get(f"{server.address}/api/state").json()["values"][at]
+
+    leaver = tab()
+    leaver.get_by_role("button", name=re.compile(r"^X \+")).hover()
+    leaver.mouse.down()
+    leaver.wait_for_timeout(500)
+    checks.that("a key is held", value("X.traversing_key_plus") == 1)
+    leaver.close()
+    page.wait_for_timeout(1500)
+    checks.that("a page that is left releases it", value("X.traversing_key_plus") == 0)
+
+    # Emergency stop: off, acknowledged, RESET.
+    page.get_by_role("button", name=re.compile("^EMERGENCY STOP")).click()
+    seen("the emergency stop has its alarm", page.locator("#alarms"), "3000")
+    page.get_by_role("button", name=re.compile("^EMERGENCY STOP")).click()
+    seen("what to do", page.locator("#keys"), "ACKNOWLEDGE, then RESET")
+    page.get_by_role("button", name="ACKNOWLEDGE").click()
+    seen("the acknowledgement stays", page.locator("#keys"), "Acknowledged: press RESET")
+    page.get_by_role("button", name=re.compile(r"^RESET")).click()
+    seen("RESET ends it", page.locator("#alarms"), "none")
+    checks.that("the alert tells no cancelled alarm", not page.get_by_role("alert").inner_text())
+
     # A pulse of one cycle, 2 ms.
     page.get_by_role("button", name="Pause").click()
     seen("it pauses", status(page, "Speed"), "paused")

@@ -31,6 +31,16 @@ function views() {
   show(wanted());
 }
 
+/** The heights of what stays above the alarms on a phone. */
+function heights() {
+  const parts = { "--status": document.querySelector("#status"), "--views": document.querySelector("nav") };
+  const measure = () => {
+    for (const [name, part] of Object.entries(parts)) document.documentElement.style.setProperty(name, `${part.offsetHeight}px`);
+  };
+  const watcher = new ResizeObserver(measure);
+  for (const part of Object.values(parts)) watcher.observe(part);
+}
+
 function messages() {
   const place = document.querySelector("#message");
   let timer = 0;
@@ -38,7 +48,11 @@ function messages() {
     say(place, said);
     set(place, "class", isError ? "message error" : "message");
     clearTimeout(timer);
-    timer = setTimeout(() => say(place, ""), 8000);
+    timer = setTimeout(() => say(place, ""), isError ? 20000 : 8000);
+  });
+  // What was wrong is over when the next command is taken.
+  on("taken", () => {
+    if (place.classList.contains("error")) say(place, "");
   });
 }
 
@@ -51,4 +65,5 @@ if (machine.catalogue.read_only) document.body.classList.add("read-only");
 messages();
 for (const view of [status, alarms, axes, why, charts, signals, diagram, scenario, panel]) view.begin();
 views();
+heights();
 follow();

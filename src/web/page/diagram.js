@@ -181,6 +181,18 @@ function alarms(group, y, x, from, to) {
   for (const [name, since] of open) bar(name, since, to);
 }
 
+/** The bits of memory in the diagram as they were last. */
+const memory = new Map();
+
+/** The server tells no changes of memory bits: they are compared with each event, 30 a second. */
+function compareMemory({ now }) {
+  for (const name of picked.filter((one) => isMemory(one))) {
+    const is = bitOf(name);
+    if (memory.has(name) && memory.get(name) !== is) machine.edges.push({ t: now.time, a: name, v: is });
+    memory.set(name, is);
+  }
+}
+
 export function draw() {
   if (!frame || !machine.now || document.body.dataset.view !== "Diagram") return;
   const to = end ?? machine.now.time;
@@ -295,6 +307,8 @@ export function begin() {
     chips, frame, el("h3", {}, "Last edges"), log);
   list();
   let drawnAt = 0;
+  on("snapshot", () => memory.clear());
+  on("step", compareMemory);
   on("step", ({ now }) => {
     set(scroll, "max", String(now.time));
     if (end === null) scroll.value = now.time;

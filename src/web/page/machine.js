@@ -10,6 +10,8 @@ export const machine = {
   /** Samples of axis values, oldest first: [time, axes]. */
   samples: [],
   link: "connecting",
+  /** The number of this page's stream. */
+  client: null,
 };
 
 const KEPT = 20000;
@@ -19,7 +21,7 @@ const SILENT = 2000;
 /** A step so far behind that of an answer is one of another server. */
 const RESTARTED = 1000;
 
-const listeners = { snapshot: [], step: [], link: [], message: [] };
+const listeners = { snapshot: [], step: [], link: [], message: [], taken: [] };
 const symbols = new Map();
 const addresses = new Map();
 let source = null;
@@ -50,20 +52,34 @@ export function memoryBit(area, byte, bit) {
   return (parseInt(hex.slice(byte * 2, byte * 2 + 2) || "0", 16) >> bit) & 1;
 }
 
+/** A bit by symbol, address of the interface, or address of inputs, outputs or flags; undefined if it is unknown. */
+export function bitOf(name) {
+  const found = /^([IQM])(\d+)\.([0-7])$/.exec(name);
+  return found ? memoryBit(found[1], Number(found[2]), Number(found[3])) : value(name);
+}
+
 export function message(said, isError = false) {
   tell("message", { said, isError });
 }
 
-/** Sends a command; returns {cycle, step}, or null after telling why it was refused. */
-export async function command(body) {
+/**
+ * Sends a command; returns {cycle, step}, or null after telling why it was refused. The server sets signals that are held to 0 when
+ * the stream of this page ends.
+ */
+export async function command(body, isHeld = false) {
   try {
-    const answer = await fetch("/api/command", {
+    const answer = await fetch(isHeld && machine.client !== null ? `/api/command?client=${machine.client}` : "/api/command", {
       method: "POST",
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify(body),
+      // A page that is left still releases its keys.
+      keepalive: true,
     });
     const told = await answer.json();
-    if (answer.ok) return told;
+    if (answer.ok) {
+      tell("taken", told);
+      return told;
+    }
     message(`${told.error}: ${told.cure}`, true);
   } catch {
     message("the server does not answer", true);
@@ -111,6 +127,7 @@ function open() {
     machine.values = told.values;
     machine.writers = new Map(told.writers);
     machine.edges = told.recent;
+    machine.client = told.client ?? machine.client;
     take(told.now);
     tell("snapshot", told);
     tell("step", told);

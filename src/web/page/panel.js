@@ -1,7 +1,7 @@
 // Keys that really press: those of the machine control panel if its PLC program runs, else signals of the interface; faults and power.
 
-import { body, button, el, field, set } from "./dom.js";
-import { command, index, machine, memoryBit, on, passed, value } from "./machine.js";
+import { body, button, el, field, say, seconds, set } from "./dom.js";
+import { bitOf, command, index, machine, memoryBit, message, on, passed, value } from "./machine.js";
 
 /** The least time of the machine for which a key is pressed: a PLC program must see it. */
 const LEAST = 0.02;
@@ -10,40 +10,98 @@ let isLatching = false;
 
 const lamps = [];
 
-/** A key: 1 while it is pressed. `isOn` tells whether its lamp is on. */
-function key(label, signal, isOn = null, isSwitch = false) {
-  let pressed = null;
-  const element = button("", () => {}, { class: "key", "aria-pressed": "false", title: signal });
+/** The keys that are pressed: what lets them go, by key. */
+const pressedKeys = new Map();
+
+/** Lets keys go that nobody can release any more: those of a page that is left, or of a window in the background. */
+function letGo(isLeaving) {
+  const signals = [];
+  for (const release of [...pressedKeys.values()]) signals.push(...release(isLeaving));
+  if (signals.length) command({ set: Object.fromEntries(signals.map((signal) => [signal, 0])) }, true);
+}
+
+function lampOf(element, label, isOn) {
   const lamp = el("span", { class: "led", "aria-hidden": "true" });
-  element.append(...(isOn ? [lamp] : []), label);
-  if (isOn) lamps.push(() => {
+  lamps.push(() => {
     const is = isOn();
     set(lamp, "data-on", String(is));
     set(element, "aria-label", is ? `${label}, lit` : label);
   });
+  return lamp;
+}
+
+/** A switch: each press changes its signal, which another client may change as well. */
+function toggle(label, signal, isOn = null, kind = null) {
+  /** The value that was asked for, until the machine has it. */
+  let asked = null;
+  const is = () => bitOf(signal) === 1;
+  const element = button("", async () => {
+    const wanted = !(asked?.wanted ?? is());
+    asked = { wanted, step: Infinity };
+    show();
+    const taken = await command({ set: { [signal]: wanted ? 1 : 0 } });
+    asked = taken ? { wanted, step: taken.step } : null;
+    show();
+  }, { class: "key", "aria-pressed": "false", title: signal, "data-kind": kind });
+  const show = () => {
+    if (asked && machine.now?.step > asked.step) asked = null;
+    set(element, "aria-pressed", String(asked?.wanted ?? is()));
+  };
+  element.append(...(isOn ? [lampOf(element, label, isOn)] : []), label);
+  lamps.push(show);
+  return element;
+}
+
+/**
+ * A key: 1 while it is pressed. `isOn` tells whether its lamp is on. `signals` can depend on the machine. While `stays` is true, it
+ * stays pressed after its release.
+ */
+function key(label, signals, isOn = null, stays = () => false) {
+  let pressed = null;
+  let isWaiting = false;
+  let written = [];
+  const all = typeof signals === "function" ? signals : () => signals;
+  const element = button("", () => {}, { class: "key", "aria-pressed": "false", title: all().join(", ") });
+  element.append(...(isOn ? [lampOf(element, label, isOn)] : []), label);
   const show = () => set(element, "aria-pressed", String(pressed !== null));
+  const write = (bit) => Object.fromEntries(written.map((signal) => [signal, bit]));
+  const over = () => {
+    pressed = null;
+    isWaiting = false;
+    pressedKeys.delete(element);
+    show();
+  };
   const press = () => {
     if (pressed !== null) return;
-    pressed = command({ set: { [signal]: 1 } });
+    written = all();
+    pressed = command({ set: write(1) }, true);
+    pressedKeys.set(element, (isLeaving) => {
+      if (!isLeaving && (isLatching || isWaiting)) return [];
+      over();
+      return written;
+    });
     show();
   };
   const release = async () => {
-    if (pressed === null) return;
-    const taken = await pressed;
-    if (taken) {
-      await passed(taken.step, LEAST);
-      await command({ set: { [signal]: 0 } });
+    const mine = pressed;
+    if (mine === null) return;
+    const taken = await mine;
+    if (taken) await passed(taken.step, LEAST);
+    // It may have been let go meanwhile.
+    if (pressed !== mine) return;
+    if (stays()) {
+      isWaiting = true;
+      return;
     }
-    pressed = null;
-    show();
+    if (taken) await command({ set: write(0) }, true);
+    if (pressed === mine) over();
   };
-  const isSticky = () => isSwitch || isLatching;
-  const begin = () => (isSticky() && pressed !== null ? release() : press());
-  const end = () => isSticky() || release();
-  if (isSwitch) lamps.push(() => {
-    // Another client may have switched it.
-    if (value(signal) === 1 && pressed === null) pressed = Promise.resolve({ step: 0 });
-    show();
+  const begin = () => (isLatching && pressed !== null ? release() : press());
+  const end = () => isLatching || release();
+  lamps.push(() => {
+    if (!isWaiting || stays()) return;
+    isWaiting = false;
+    release();
   });
   element.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
@@ -74,9 +132,33 @@ function group(name, ...keys) {
 }
 
 /** A key of a signal if the machine has it. */
-function has(label, signal, lamp = null, isSwitch = false) {
+function has(label, signal, lamp = null, isSwitch = false, kind = null) {
   if (index(signal) === undefined) return null;
-  return key(label, signal, lamp ? () => value(lamp) === 1 : null, isSwitch);
+  const isOn = lamp ? () => value(lamp) === 1 : null;
+  return isSwitch ? toggle(label, signal, isOn, kind) : key(label, [signal], isOn);
+}
+
+const isStopped = () => value("nck.emergency_stop_active") === 1;
+
+/** RESET of a channel and its mode group. An emergency stop ends only with RESET of all mode groups. */
+function reset(channel) {
+  const groups = machine.catalogue.signals.map(({ symbol }) => symbol).filter((symbol) => /^mode_group_\d+\.mode_group_reset$/.test(symbol));
+  const signals = () => [...(isStopped() ? groups : groups.slice(0, 1)), `${channel}.channel_reset`];
+  if (index(`${channel}.channel_reset`) === undefined) return null;
+  return key("RESET", signals, () => value(`${channel}.channel_status_reset`) === 1);
+}
+
+/** The acknowledgement stays until RESET has ended the emergency stop: both must be 1 in the same cycle. */
+function acknowledge() {
+  const signal = "nck.acknowledge_emergency_stop";
+  if (index(signal) === undefined) return null;
+  const isOpen = () => value("nck.emergency_stop") === 1;
+  const element = key("ACKNOWLEDGE", [signal], null, () => isStopped() && !isOpen());
+  const hint = el("p", { class: "hint", role: "status" });
+  lamps.push(() => say(hint, !isStopped() ? ""
+    : isOpen() ? "To leave it: EMERGENCY STOP off, ACKNOWLEDGE, RESET."
+    : bitOf(signal) === 1 ? "Acknowledged: press RESET." : "To leave it: ACKNOWLEDGE, then RESET."));
+  return [element, hint];
 }
 
 /** The keys of the panel from its layout: nine letters for each bit. */
@@ -92,11 +174,18 @@ function panel(layout) {
     const bits = Object.fromEntries([0, 1, 2, 3, 4].map((bit) => [`I3.${bit}`, (gray >> bit) & 1]));
     command({ set: bits });
   });
+  lamps.push(() => {
+    if (document.activeElement === override) return;
+    let position = 0;
+    for (let gray = [4, 3, 2, 1, 0].reduce((code, bit) => code * 2 + memoryBit("I", 3, bit), 0); gray; gray >>= 1) position ^= gray;
+    if (position < override.options.length) override.value = String(position);
+  });
   const shown = rows.I.map((cells, byte) => cells.map((label, at) => {
     const bit = 7 - at;
     const lit = rows.Q[byte]?.[at] ? () => memoryBit("Q", byte, bit) === 1 : null;
     if (!label || label.startsWith("OVR")) return null;
-    return key(label, `I${byte}.${bit}`, lit, label === "CHAIN" || label.startsWith("KEY"));
+    // The lamp beside CHAIN is that of the emergency stop, and has its own place.
+    return label === "CHAIN" || label.startsWith("KEY") ? toggle(label, `I${byte}.${bit}`) : key(label, [`I${byte}.${bit}`], lit);
   }).filter(Boolean).reverse());
   const only = (byte) => (rows.Q[byte] ?? []).map((label, at) => [label, 7 - at]).filter(([label, bit]) =>
     label && label !== rows.I[byte]?.[7 - bit]).reverse().map(([label, bit]) => {
@@ -131,11 +220,27 @@ function mode(label, on, lamp) {
   return element;
 }
 
+/** Why signals do not keep a value: who wrote them last. */
+function withoutEffect(names, bit) {
+  const [time, by] = machine.writers.get(index(names[0])) ?? [];
+  const more = names.length > 1 ? ` and ${names.length - 1} more` : "";
+  const { plc } = machine.catalogue;
+  const who = by === "plc" ? `the PLC program${plc ? ` ${plc}` : ""}` : by;
+  return `without effect: ${names[0]}${more} ${names.length > 1 ? "are" : "is"} ${1 - bit}`
+    + `${who ? `, last written by ${who} at ${seconds(time)}` : ""}. Force it in Signals, or stop the PLC.`;
+}
+
 function enables() {
   const names = machine.catalogue.axes.flatMap(({ name }) =>
     ["position_measuring_system_1", "controller_enable", "pulse_enable", "drive_enable", "feed_enable"].map((signal) => `${name}.${signal}`))
     .filter((name) => index(name) !== undefined);
-  const all = (bit) => () => command({ set: Object.fromEntries(names.map((name) => [name, bit])) });
+  const all = (bit) => async () => {
+    const taken = await command({ set: Object.fromEntries(names.map((name) => [name, bit])) });
+    if (!taken) return;
+    await passed(taken.step, LEAST);
+    const other = names.filter((name) => value(name) !== bit);
+    if (other.length) message(withoutEffect(other, bit), true);
+  };
   return names.length ? [button("Enable all axes", all(1)), button("Disable", all(0))] : [];
 }
 
@@ -143,9 +248,24 @@ function override() {
   const channel = machine.catalogue.channels[0];
   const signal = `${channel}.feed_override`;
   if (index(signal) === undefined || index(`${channel}.feed_override_active`) === undefined) return null;
-  const choice = el("select", {}, ...[0, 10, 20, 50, 100, 120].map((share) =>
-    el("option", { value: share, selected: share === 100 }, `${share} %`)));
-  choice.addEventListener("change", () => command({ set: { [signal]: `${choice.value}%`, [`${channel}.feed_override_active`]: 1 } }));
+  const choice = el("select", {}, ...[0, 10, 20, 50, 100, 120].map((share) => el("option", { value: share }, `${share} %`)));
+  const other = el("option", { value: "", hidden: true, disabled: true }, "another");
+  choice.append(other);
+  // The override of the channel acts on programs, that of each axis in JOG.
+  const axes = machine.catalogue.axes.map(({ name }) => name).filter((name) => index(`${name}.feed_override`) !== undefined);
+  choice.addEventListener("change", () => command({ set: Object.fromEntries([
+    [signal, `${choice.value}%`], [`${channel}.feed_override_active`, 1],
+    ...axes.flatMap((name) => [[`${name}.feed_override`, `${choice.value}%`], [`${name}.override_active`, 1]]),
+  ]) }).then(() => choice.blur()));
+  const shares = new Map(machine.catalogue.feed_overrides);
+  lamps.push(() => {
+    if (document.activeElement === choice) return;
+    // Without override active, the override is 100 %.
+    const share = value(`${channel}.feed_override_active`) === 1 ? shares.get(value(signal)) : 100;
+    const shown = [...choice.options].some((option) => option.value === String(share)) ? String(share) : "";
+    say(other, share === undefined ? "another" : `${share} %`);
+    if (choice.value !== shown) choice.value = shown;
+  });
   return field("Feed override", choice);
 }
 
@@ -157,7 +277,7 @@ function interfaceKeys() {
     group("Mode", mode("AUTO", ["mode_automatic"], is("active_mode_automatic")), mode("MDA", ["mode_mdi"], is("active_mode_mdi")),
       mode("JOG", ["mode_jog"], () => is("active_mode_jog")() && !ref()), mode("REF", ["mode_jog", "machine_function_ref"], ref)),
     group("Program", has("START", `${channel}.nc_start`, `${channel}.program_status_running`), has("STOP", `${channel}.nc_stop`),
-      has("RESET", `${channel}.channel_reset`, `${channel}.channel_status_reset`), has("START", `${channel}.start`, `${channel}.program_active`),
+      reset(channel), has("START", `${channel}.start`, `${channel}.program_active`),
       has("RESET", `${channel}.reset`), has("FEED HOLD", `${channel}.feed_hold`, null, true),
       has("SINGLE BLOCK", `${channel}.activate_single_block`, null, true), override()),
     group("Axes", ...machine.catalogue.axes.flatMap(({ name }) => [
@@ -169,9 +289,9 @@ function interfaceKeys() {
       if (start) lamps.push(() => { start.hidden = value(`${name}.gantry_leading_axis`) !== 1; });
       return start;
     })),
-    group("Enables", enables()),
-    group("Emergency stop", has("EMERGENCY STOP", "nck.emergency_stop", "nck.emergency_stop_active", true),
-      has("ACKNOWLEDGE", "nck.acknowledge_emergency_stop")),
+    group("Enables", ...enables()),
+    group("Emergency stop", has("EMERGENCY STOP", "nck.emergency_stop", "nck.emergency_stop_active", true, "alarm"),
+      acknowledge()),
   ];
 }
 
@@ -219,6 +339,9 @@ export function begin() {
       machine.catalogue.panel ? null : has("Channel reset", `${channel}.channel_reset`),
       button("Stop the PLC", () => command({ plc: "stop" })), button("Start the PLC", () => command({ plc: "run" }))),
     ...faultKeys());
+  addEventListener("pagehide", () => letGo(true));
+  addEventListener("blur", () => letGo(false));
+  document.addEventListener("visibilitychange", () => document.hidden && letGo(true));
   on("snapshot", ({ recent }) => { faults.clear(); note(recent); });
   on("step", ({ edges }) => {
     note(edges);

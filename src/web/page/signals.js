@@ -66,8 +66,8 @@ export function begin() {
     const actions = signal.writer === "nck"
       ? [isBit ? button("Why not?", () => ask(signal.symbol), name("Why not")) : null]
       : isBit ? [1, 0].map((bit) => button(`${bit}`, () => command({ set: { [signal.symbol]: bit } }), { ...name(`Set to ${bit}`), class: "write" })) : [];
-    const element = el("tr", {}, el("td", {}, signal.address), el("th", { scope: "row", title: signal.doc }, signal.symbol),
-      value, el("td", {}, WRITERS[signal.writer]), last, el("td", { class: "actions" }, ...actions, plot));
+    const element = el("tr", {}, el("td", { class: "address" }, signal.address), el("th", { scope: "row", title: signal.doc }, signal.symbol),
+      value, el("td", { class: "of" }, WRITERS[signal.writer]), last, el("td", { class: "actions" }, ...actions, plot));
     return { element, value, last, plot, before: undefined, marked: 0 };
   };
   const list = () => {
