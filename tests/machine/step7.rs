@@ -322,7 +322,7 @@ fn words_name_the_words_of_which_they_are_made() {
     );
     let text = finished.text();
     for row in [
-        "0 -> 60  plc      FC1, network 1, statement 4 (main.awl:7): IW2 = 30",
+        "FC1, network 1, statement 4 (main.awl:7): IW2 = 30",
         "FC1, network 2, statement 2 (main.awl:10): MB21 = 60",
         "FC1, network 2, statement 6 (main.awl:14): MW20 = 60, DB100.DBW0 = 50",
     ] {

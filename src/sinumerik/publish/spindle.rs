@@ -1,6 +1,7 @@
 //! The signals of a spindle: DB31.DBX60.0, 82 to 90.
 
 use crate::image::axis_from_nck;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::spindle::REVOLUTION_PER_MINUTE;
 use crate::sinumerik::publish::rows::{Rows, Why};
@@ -53,7 +54,11 @@ impl State {
                 return mode();
             }
             if spindle.commanded == 0.0 && spindle.holder != Input::None {
-                return Why::Tested(Rule::SpindleHeld, [spindle.holder, Input::None, Input::None], movement());
+                // An enable that came in this cycle came after the speed was decided.
+                let missing = axis_signal(number, axis_from_nck::speed_controller_active, false);
+                let is_past = spindle.holder == missing && axis.enabling.is_on();
+                let holder = if is_past { Input::None } else { spindle.holder };
+                return Why::Tested(Rule::SpindleHeld, [holder, Input::None, Input::None], movement());
             }
             Why::Tested(Rule::SpeedReached, [measured(), tolerance(), Input::None], movement())
         });

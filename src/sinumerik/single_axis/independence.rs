@@ -114,7 +114,7 @@ impl State {
     }
 
     /// Whether no block of a program uses the axes of a unit: the PLC has them, and may be positioning them, or nothing uses them.
-    fn is_free_of_programs(&self, unit: &Unit) -> bool {
+    pub(in crate::sinumerik) fn is_free_of_programs(&self, unit: &Unit) -> bool {
         let leader = unit.leader();
         self.owners.of(leader).holder == Holder::Plc || !self.owners.used.contains(leader)
     }

@@ -4,7 +4,7 @@
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::sinumerik::user::state::PlcMessage;
-use crate::variables::{AlarmNumber, EventId, Parameter, Place, RaisedAlarm};
+use crate::variables::{AlarmNumber, BlockName, EventId, Input, Parameter, Place, RaisedAlarm};
 
 impl State {
     /// The PLC program shows exactly these messages from now on.
@@ -18,7 +18,8 @@ impl State {
         self.user.messages.retain(|message| numbers.contains(&message.number));
         for &number in numbers {
             if self.user.messages.iter().all(|message| message.number != number) {
-                let cause = self.log.note_plain(Place::Nck, Rule::PlcMessage, EventId::NONE);
+                let inputs = [shown_in_db2(), Input::None, Input::None];
+                let cause = self.log.note(Place::Nck, Rule::PlcMessage, inputs, EventId::NONE);
                 self.user.messages.push(PlcMessage { number, cause });
             }
         }
@@ -31,6 +32,11 @@ impl State {
             self.alarms.raise(number, place, parameters, message.cause);
         }
     }
+}
+
+/// FC 10 reads the bits of DB2.
+fn shown_in_db2() -> Input {
+    Input::Block(BlockName::from("DB2").unwrap_or_default())
 }
 
 fn raised(number: u32) -> RaisedAlarm {

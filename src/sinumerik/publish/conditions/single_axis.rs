@@ -16,8 +16,12 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
     }),
     Row::new(axis_from_nck::plc_controlled_axis, |look, axis| {
         let what = format!("the PLC controls {}", look.axis_name(axis));
-        fact(what, look.state.single.axes[axis].independence.taken)
-            .after(|| look.axis(axis, axis_to_nck::plc_controls_axis, true))
+        fact(what, look.state.single.axes[axis].independence.taken).after(|| {
+            // set while a block uses the axis, 28.7 takes effect when no block uses it any more.
+            let is_free = look.state.unit_of(axis).is_some_and(|unit| look.state.is_free_of_programs(&unit));
+            let free = fact(format!("no block of a program uses {}", look.axis_name(axis)), is_free);
+            Condition::All(vec![look.axis(axis, axis_to_nck::plc_controls_axis, true), free.into()])
+        })
     }),
     Row::new(axis_from_nck::axis_stop_active, |look, axis| {
         let what = format!("stop of {}, which the PLC controls", look.axis_name(axis));
