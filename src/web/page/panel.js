@@ -196,7 +196,7 @@ function panel(layout) {
       set(lamp, "data-on", String(is));
       state.textContent = is ? " lit" : " dark";
     });
-    return el("span", { class: "lamp-only" }, lamp, label, state);
+    return el("span", { class: "lamp-only", "data-kind": label === "stop" || label === "alarm" ? "alarm" : null }, lamp, label, state);
   });
   const names = ["Mode", "Machine function", "Program", "Block", "Axis", "Direction", "Referenced", "Emergency stop"];
   return el("div", { class: "panel" }, ...names.map((name, byte) =>
