@@ -33,7 +33,12 @@ impl Cpu {
         if self.observed.is_none() {
             return self.run_basic(areas, block);
         }
-        let before = areas.link().map(|link| link.to_nck.as_bytes().to_vec()).unwrap_or_default();
+        let mut before =
+            self.observed.as_mut().map(|observed| std::mem::take(&mut observed.interface)).unwrap_or_default();
+        before.clear();
+        if let Some(link) = areas.link() {
+            before.extend_from_slice(link.to_nck.as_bytes());
+        }
         let pc = self.observed.as_ref().map_or(0, |observed| observed.pc);
         let done = self.run_basic(areas, block);
         if let Some(observed) = &mut self.observed {
@@ -41,6 +46,9 @@ impl Cpu {
         }
         if let Some(link) = areas.link() {
             self.note_interface(&before, link.to_nck.as_bytes());
+        }
+        if let Some(observed) = &mut self.observed {
+            observed.interface = before;
         }
         done
     }

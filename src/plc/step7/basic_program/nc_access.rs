@@ -187,6 +187,8 @@ impl Cpu {
                     .any(|path| link.nc.order(NcOrder::SelectProgram(channel, path)));
                 return Ok(if is_taken { 0 } else { state::REFUSED });
             }
+            // No PIService, or an empty one.
+            "" => return Ok(state::ADDRESS),
             "CONFIG" => NcOrder::ActivateData,
             // Interrupt routines, and what has no counterpart here: done at once.
             _ => return Ok(0),
@@ -215,19 +217,21 @@ impl Cpu {
     }
 }
 
-/// The bytes of a value in the type of a variable of the PLC; `None` if the type is of another kind. A DOUBLE of the NC becomes a REAL.
+/// The bytes of a value in the type of a variable of the PLC; `None` if the type is of another kind, or too small. A DOUBLE of the NC becomes a REAL.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "the PLC variable is as wide as the program made it"
 )]
 fn encode(value: f64, region: &Region) -> Option<[u8; 4]> {
+    let fits = |least: f64, most: f64| (least..=most).contains(&value.trunc());
     Some(match (region.code, region.bytes) {
         (0x01, 1) => [u8::from(value != 0.0), 0, 0, 0],
-        (0x02 | 0x03, 1) => [value as u8, 0, 0, 0],
-        (0x04, 2) => ((value as i32 as u32) << 16).to_be_bytes(),
-        (0x05, 2) => ((value as i32 as u32) << 16).to_be_bytes(),
-        (0x06 | 0x07, 4) => (value as i64 as u32).to_be_bytes(),
+        (0x02 | 0x03, 1) if fits(0.0, 255.0) => [value as u8, 0, 0, 0],
+        (0x04, 2) if fits(0.0, 65_535.0) => ((value as i32 as u32) << 16).to_be_bytes(),
+        (0x05, 2) if fits(-32_768.0, 32_767.0) => ((value as i32 as u32) << 16).to_be_bytes(),
+        (0x06, 4) if fits(0.0, 4_294_967_295.0) => (value as i64 as u32).to_be_bytes(),
+        (0x07, 4) if fits(-2_147_483_648.0, 2_147_483_647.0) => (value as i64 as u32).to_be_bytes(),
         (0x08, 4) => (value as f32).to_be_bytes(),
         _ => return None,
     })

@@ -68,6 +68,29 @@ impl Known<'_> {
         (fitting(best) > 0).then_some(best)
     }
 
+    /// What to say of a block of the basic program that a call does not reach: what is wrong, and the cure.
+    pub(super) fn basic_missing(name: BlockName) -> Option<(String, String)> {
+        let own = format!("or add the source of your own {name}");
+        if let Some(block) = basic_program::by_number(name).and_then(|index| basic_program::BLOCKS.get(index)) {
+            let names: Vec<&str> = block.layout.fields.iter().map(|field| &*field.name).collect();
+            let cure = match names.as_slice() {
+                [] => format!("call it without parameters, {own}"),
+                names => format!("pass its parameters ({}), {own}", names.join(", ")),
+            };
+            let what = format!("{name} is the built-in {} only if a call has its parameters", block.name);
+            return Some((what, cure));
+        }
+        let is_basic = match name.kind {
+            BlockKind::Fb => matches!(name.number, 5 | 7 | 9 | 10 | 11 | 29),
+            BlockKind::Fc => matches!(name.number, 13 | 17 | 21 | 26),
+            _ => false,
+        };
+        is_basic.then(|| {
+            let what = format!("{name} is called and is nowhere; the basic program has one, which is not built in");
+            (what, format!("add the source of your own {name}, or write `missing = \"ignore\"` in `plc.toml`"))
+        })
+    }
+
     /// The block that an operand names.
     fn block_of(&self, operand: &Operand) -> Option<BlockName> {
         match operand {

@@ -418,6 +418,9 @@ impl<'k, 'a> Unit<'k, 'a> {
         if self.ignores_missing || !is_new {
             return Ok(());
         }
+        if let Some((what, cure)) = Known::basic_missing(name).filter(|_| !self.known.sources.contains_key(&name)) {
+            return Err(Fault { at, kind: FindingKind::Missing, what, cure });
+        }
         Err(Fault {
             at,
             kind: FindingKind::Missing,

@@ -18,6 +18,9 @@ use super::read::{Named, Read};
 /// The bit address of Q in the instance of an IEC timer; IN is its first bit.
 const Q: u32 = 6 * 8;
 
+/// So many bytes of the interface are compared at once.
+const PIECE: usize = 64;
+
 /// What an instruction is about to write.
 #[derive(Clone, Copy, Debug)]
 enum Writes {
@@ -130,12 +133,19 @@ impl Cpu {
     /// After a block of the basic program: what it wrote to the NCK, without reasons of its own.
     pub(in crate::plc::step7) fn note_interface(&mut self, before: &[u8], now: &[u8]) {
         let Some(observed) = &mut self.observed else { return };
+        // Most calls change nothing: whole pieces are compared first.
+        if before == now {
+            return;
+        }
         let pc = observed.pc;
-        for (byte, (before, now)) in (0_u32..).zip(before.iter().zip(now)) {
-            for bit in (0..8).filter(|bit| (before ^ now) >> bit & 1 == 1) {
-                if observed.seen.len() < CHANGES || observed.has_all_writes {
-                    let (place, value) = (Named::ToNck(byte * 8 + bit), u32::from(now >> bit & 1));
-                    observed.seen.push(Seen { pc, place, bits: 1, value, tested: ArrayVec::new() });
+        let pieces = before.chunks(PIECE).zip(now.chunks(PIECE));
+        for (first, (before, now)) in (0_u32..).step_by(PIECE).zip(pieces).filter(|(_, (before, now))| before != now) {
+            for (byte, (before, now)) in (first..).zip(before.iter().zip(now)) {
+                for bit in (0..8).filter(|bit| (before ^ now) >> bit & 1 == 1) {
+                    if observed.seen.len() < CHANGES || observed.has_all_writes {
+                        let (place, value) = (Named::ToNck(byte * 8 + bit), u32::from(now >> bit & 1));
+                        observed.seen.push(Seen { pc, place, bits: 1, value, tested: ArrayVec::new() });
+                    }
                 }
             }
         }

@@ -48,6 +48,8 @@ pub(in crate::plc::step7) struct Observed {
     pub(in crate::plc::step7) clock: Option<Clock>,
     /// Where the values in the accumulators come from.
     pub(in crate::plc::step7) flow: Flow,
+    /// The interface to the NCK before a block of the basic program; kept, so that no call allocates.
+    pub(in crate::plc::step7) interface: Vec<u8>,
 }
 
 /// An IEC timer before its call: its instance, and whether Q was set.
@@ -69,6 +71,7 @@ impl Observed {
             pc: 0,
             clock: None,
             flow: Flow::default(),
+            interface: Vec::new(),
         }
     }
 
