@@ -98,12 +98,20 @@ impl Replacement {
         }
     }
 
-    /// Adds text or bytes to the new file.
+    /// Adds text to the new file.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write(&mut self, content: impl AsRef<[u8]>) -> Result<(), Problem> {
-        let written = self.file().and_then(|file| file.write_all(content.as_ref()));
+    pub fn write(&mut self, text: &str) -> Result<(), Problem> {
+        self.write_bytes(text.as_bytes())
+    }
+
+    /// Adds bytes to the new file.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_bytes(&mut self, bytes: &[u8]) -> Result<(), Problem> {
+        let written = self.file().and_then(|file| file.write_all(bytes));
         written.map_err(|error| unwritable(&self.named, &error))
     }
 

@@ -102,7 +102,7 @@ pub(super) fn write(bytes: &[u8], listed: &Listed<'_>, output: &mut Output) -> R
         return Ok(());
     };
     let mut file = open(path, listed.format)?;
-    file.write(bytes)?;
+    file.write_bytes(bytes)?;
     file.finish()
 }
 

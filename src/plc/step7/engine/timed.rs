@@ -92,36 +92,3 @@ impl Cpu {
         self.ended(done)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn at(year: u32, month: u32, day: u32, hour: i64) -> i64 {
-        i64::from(days(year, month, day).unwrap()) * DAY_MILLIS + hour * 3_600_000
-    }
-
-    #[test]
-    fn a_series_goes_on_after_a_time() {
-        let start = at(2024, 1, 31, 6);
-        for (code, time, next) in [
-            (0x0000, at(2024, 1, 1, 0), Some(start)),
-            (0x0000, start, None),
-            (0x0201, start, Some(start + 60_000)),
-            (0x0401, at(2024, 2, 1, 7) + 1, Some(at(2024, 2, 1, 8))),
-            (0x1001, start, Some(at(2024, 2, 1, 6))),
-            (0x1201, start, Some(at(2024, 2, 7, 6))),
-            // February has no 31st; its end is the 29th in 2024.
-            (0x1401, start, Some(at(2024, 3, 31, 6))),
-            (0x1801, start, Some(at(2025, 1, 31, 6))),
-            (0x2001, start, Some(at(2024, 2, 29, 6))),
-            (0x2001, at(2024, 1, 10, 0), Some(start)),
-            (0x1401, at(2024, 1, 10, 0), Some(start)),
-        ] {
-            assert_eq!(Period::of(code).unwrap().after(start, time), next, "{code:04X}");
-        }
-        let leap = at(2024, 2, 29, 0);
-        assert_eq!(Period::Year.after(leap, leap), Some(at(2028, 2, 29, 0)));
-        assert_eq!(Period::of(0x0202), None);
-    }
-}
