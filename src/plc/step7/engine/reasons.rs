@@ -181,9 +181,14 @@ impl Cpu {
                 None => return,
             },
         };
-        // With an open value the result does not follow from the named ones alone.
-        if tree.open == 0 && tree.value(root, false) == rlo {
-            tree.decisive(root, false, tested);
+        // With several open values it is not known which is what.
+        let open = match tree.open {
+            0 => false,
+            1 if tree.value(root, true) != tree.value(root, false) => tree.value(root, true) == rlo,
+            _ => return,
+        };
+        if tree.value(root, open) == rlo {
+            tree.decisive(root, open, tested);
         }
     }
 

