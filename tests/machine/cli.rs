@@ -551,18 +551,18 @@ fn a_step_7_program_is_checked_with_file_line_and_network() {
         text.contains("data blocks that the machine must have: DB31\n") && text.contains("no findings\n"),
         "{text}"
     );
-    let (code, text) = check("CALL FC 19;\nCALL SFC 51;");
+    let (code, text) = check("CALL FC 77;\nCALL SFC 79;");
     assert_eq!(code, Some(1), "{text}");
-    assert!(text.contains("main.awl:4:1: OB1, network 1: FC19 is called and is nowhere\n"), "{text}");
+    assert!(text.contains("main.awl:4:1: OB1, network 1: FC77 is called and is nowhere\n"), "{text}");
     assert!(
-        text.contains("not supported: 1\n") && text.contains("main.awl:5:1: OB1, network 1: SFC51 is not built in"),
+        text.contains("not supported: 1\n") && text.contains("main.awl:5:1: OB1, network 1: SFC79 is not built in"),
         "{text}"
     );
     let (code, text) = check("A M 0.9;");
     assert_eq!(code, Some(2), "{text}");
     assert!(text.contains("errors: 1\n") && text.contains("main.awl:4:5: expected a bit from 0 to 7"), "{text}");
     fs::write(folder.join("plc.toml"), "missing = \"ignore\"\n").unwrap();
-    assert_eq!(check("CALL FC 19;").0, Some(0));
+    assert_eq!(check("CALL FC 77;").0, Some(0));
     fs::remove_file(folder.join("main.awl")).unwrap();
     let output = opennck(&["plc", "check", "portal"], &directory);
     assert!(
