@@ -54,9 +54,10 @@ impl State {
                 return mode();
             }
             if spindle.commanded == 0.0 && spindle.holder != Input::None {
-                // An enable that came in this cycle came after the speed was decided.
+                // While the controllers are switched on one after the other, 61.6 is 1 before the axis is ready to be moved.
                 let missing = axis_signal(number, axis_from_nck::speed_controller_active, false);
-                let is_past = spindle.holder == missing && axis.enabling.is_on();
+                let [_, speed_controller, _] = axis.enabling.controllers();
+                let is_past = spindle.holder == missing && speed_controller;
                 let holder = if is_past { Input::None } else { spindle.holder };
                 return Why::Tested(Rule::SpindleHeld, [holder, Input::None, Input::None], movement());
             }
