@@ -121,17 +121,17 @@ fn follow(mut machine: Machine, mut operator: Operator, scenario: String, delay:
             check.memories.push_back(machine.memory().clone());
             check.memories.drain(..check.memories.len().saturating_sub(delay + 1));
         }
-        let phase = machine.cycle() % SAMPLE;
-        let changed = |bit: &Location| {
-            let is_of = |row: &Row| matches!(row.change, Change::Byte { part, offset, .. } if (part, offset) == (bit.part, bit.offset));
-            machine.recorder().rows().iter().any(is_of)
-        };
-        edges += u64::from(!machine.recorder().rows().is_empty());
-        // What is stuck in a sample must not be stuck some cycles later.
-        if phase == 0 || phase == PATIENCE + 1 || !machine.recorder().rows().is_empty() && edges % EDGES == 0 {
+        let rows = machine.recorder().rows();
+        edges += u64::from(!rows.is_empty());
+        if machine.cycle() % SAMPLE == 0 || !rows.is_empty() && edges % EDGES == 0 {
             check.look(&machine, &bits);
-        } else if !machine.recorder().rows().is_empty() {
-            check.look(&machine, &bits.iter().copied().filter(changed).collect::<Vec<_>>());
+        } else if !rows.is_empty() || !check.stuck.is_empty() {
+            let is_of = |row: &Row, bit: &Location| matches!(row.change, Change::Byte { part, offset, .. } if (part, offset) == (bit.part, bit.offset));
+            let changed = |bit: &Location| rows.iter().any(|row| is_of(row, bit));
+            // What is stuck must not be stuck in each of the next cycles.
+            let stuck = |bit: &Location| check.stuck.keys().any(|(stuck, _)| stuck == bit);
+            let due: Vec<_> = bits.iter().copied().filter(|bit| changed(bit) || stuck(bit)).collect();
+            check.look(&machine, &due);
         }
         machine.drain();
     }
