@@ -80,7 +80,7 @@ fn components(
         let (from, width) = (start(symbol), symbol.kind().width());
         let before = placed.range(..from + width).next_back();
         let is_free = before.is_none_or(|(&at, other)| at + other.kind().width() <= from);
-        if is_free && (width < 16 || from % 16 == 0) {
+        if is_free && (width < 16 || from.is_multiple_of(16)) {
             placed.insert(from, symbol);
         } else {
             let what = if is_free { "begins at an odd byte" } else { "shares its bytes with other signals" };
@@ -110,10 +110,10 @@ fn fill(components: &mut Vec<Component>, mut at: u32, end: u32) {
     while at < end {
         let byte = at / 8;
         let bytes = (end - at) / 8;
-        if at % 8 != 0 || bytes == 0 {
+        if !at.is_multiple_of(8) || bytes == 0 {
             push(format!("reserved_{byte}_{}", at % 8), "BOOL".to_owned());
             at += 1;
-        } else if byte % 2 != 0 || bytes == 1 {
+        } else if !byte.is_multiple_of(2) || bytes == 1 {
             push(format!("reserved_{byte}"), "BYTE".to_owned());
             at += 8;
         } else {

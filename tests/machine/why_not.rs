@@ -8,15 +8,10 @@ use opennck::image::{Location, Memory, Part, Writer};
 use opennck::machine::{Machine, Subject, Tested};
 use opennck::plc::Programs;
 use opennck::scenario::{Operator, State};
-use opennck::trace::{Change, Row};
 use opennck::units::Time;
 
-/// Every so many cycles all signals are checked.
+/// Every so many cycles all signals are checked, in addition to the cycles with an edge.
 const SAMPLE: u64 = 250;
-
-/// In every so many cycles with an edge all signals are checked; in the others, those whose bytes changed. All signals in each of these
-/// cycles would take ten times as long.
-const EDGES: u64 = 8;
 
 /// The number of cycles in which a signal follows when everything that is named for its next step holds: the enabling sequence takes
 /// 3 steps of 2 cycles, and another step may precede it.
@@ -58,6 +53,7 @@ struct Check {
     scenario: String,
     /// The memories of the cycles that the control has not read yet, with the one that it has read last (O-28).
     memories: VecDeque<Memory>,
+    bits: Vec<Location>,
     /// What is stuck, since which cycle.
     stuck: BTreeMap<(Location, bool), u64>,
     wrong: Findings,
@@ -75,8 +71,8 @@ impl Check {
         self.wrong.entry((name, wanted, what)).or_insert(text);
     }
 
-    fn look(&mut self, machine: &Machine, bits: &[Location]) {
-        for &bit in bits {
+    fn look(&mut self, machine: &Machine) {
+        for bit in self.bits.clone() {
             let value = machine.memory().read(bit) != 0;
             for wanted in [false, true] {
                 let tested = machine.conditions(bit, wanted).expect("it has conditions");
@@ -108,8 +104,7 @@ impl Check {
 fn follow(mut machine: Machine, mut operator: Operator, scenario: String, delay: usize) -> Findings {
     let (bits, stuck, wrong) = (bits(&machine), BTreeMap::new(), Findings::new());
     let memories = std::iter::repeat_n(machine.memory().clone(), delay).collect();
-    let mut check = Check { scenario, memories, stuck, wrong };
-    let mut edges = 0;
+    let mut check = Check { scenario, memories, bits, stuck, wrong };
     loop {
         operator.act(&mut machine);
         if *operator.state() != State::Acting {
@@ -121,17 +116,10 @@ fn follow(mut machine: Machine, mut operator: Operator, scenario: String, delay:
             check.memories.push_back(machine.memory().clone());
             check.memories.drain(..check.memories.len().saturating_sub(delay + 1));
         }
-        let rows = machine.recorder().rows();
-        edges += u64::from(!rows.is_empty());
-        if machine.cycle() % SAMPLE == 0 || !rows.is_empty() && edges % EDGES == 0 {
-            check.look(&machine, &bits);
-        } else if !rows.is_empty() || !check.stuck.is_empty() {
-            let is_of = |row: &Row, bit: &Location| matches!(row.change, Change::Byte { part, offset, .. } if (part, offset) == (bit.part, bit.offset));
-            let changed = |bit: &Location| rows.iter().any(|row| is_of(row, bit));
-            // What is stuck must not be stuck in each of the next cycles.
-            let stuck = |bit: &Location| check.stuck.keys().any(|(stuck, _)| stuck == bit);
-            let due: Vec<_> = bits.iter().copied().filter(|bit| changed(bit) || stuck(bit)).collect();
-            check.look(&machine, &due);
+        let phase = machine.cycle() % SAMPLE;
+        // What is stuck in a sample must not be stuck some cycles later. An edge is a sample, too.
+        if phase == 0 || phase == PATIENCE + 1 || !machine.recorder().rows().is_empty() {
+            check.look(&machine);
         }
         machine.drain();
     }
