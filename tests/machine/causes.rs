@@ -44,7 +44,7 @@ fn gantry() -> Session {
             io.to_nck.axis(axis).set_pulse_enable(true);
         }
     });
-    Session::open("g1_example").unwrap().with_program(plc.boxed())
+    Session::open("g1_example").expect("a built-in machine").with_program(plc.boxed())
 }
 
 #[test]
