@@ -75,7 +75,7 @@ pub(super) struct Axis {
     pub shift: Position,
     pub homed: bool,
     pub run: Option<Run>,
-    /// A slave whose combination is being homed: its limits do not count from P-AXIS-00073 until all are homed (HG-29).
+    /// While the axes of its combination are being homed, the limits of a slave do not yet refer to P-AXIS-00073 (HG-29).
     pub waits_for_others: bool,
     pub error: Option<AxisError>,
     pub units: Units,

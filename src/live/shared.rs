@@ -126,7 +126,7 @@ impl Shared {
         self.driving.speed()
     }
 
-    /// Asks the stepping thread to go back. A request that waits already is replaced, and its sender is told so.
+    /// Asks the stepping thread to go back in time. A new request replaces one that is still waiting, and the sender of that one gets an error.
     pub(super) fn ask_to_return(&self, asked: Return) {
         *self.return_asked.lock().unwrap_or_else(PoisonError::into_inner) = Some(asked);
         self.is_return_asked.store(true, Ordering::Release);

@@ -170,7 +170,7 @@ impl<'a> Text<'a> {
         (found, second)
     }
 
-    /// The line of the first `$ELSE` or `$ELSEIF` behind the `$ELSE` of the `$IF` whose blocks begin in a line.
+    /// The line of a second `$ELSE`, or of an `$ELSEIF` after `$ELSE`, in the `$IF` whose blocks begin in a given line.
     pub(super) fn misplaced(self, from: u32) -> Option<u32> {
         let (mut depth, mut has_else) = (0_usize, false);
         for (line, head) in self.section(from) {

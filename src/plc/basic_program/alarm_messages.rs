@@ -21,7 +21,7 @@ pub struct AlarmMessages {
     before: Vec<u8>,
     /// The messages that are shown, as bits of DB2.
     shown: Vec<u8>,
-    /// The first bytes of the groups whose signals are 1 because of this block.
+    /// The groups whose group signals this block has set, each by the first byte of its messages in DB2.
     groups: Vec<u16>,
     numbers: Vec<u32>,
 }

@@ -22,7 +22,7 @@ impl Cpu {
         }
         let keys = match self.panel_place(areas, self.state.basic.panel_inputs[panel])? {
             Some(place) => self.read_bytes(areas, place)?,
-            // FB1 names no inputs: a panel whose keys are not pressed.
+            // MCP1In of FB1 has no address, so no key of the panel is pressed.
             None => [0, 0, 0b0001_0101, 0, 0, 0, 0, 0],
         };
         let inputs = PanelInputs {

@@ -4,7 +4,7 @@ use super::cpu::Cpu;
 use super::fault::Stop;
 use super::interrupts::{CYCLIC, MILLI_NANOS, TIME_DELAY, TIME_OF_DAY};
 use super::memory::Areas;
-/// The elements whose bits are set, from the last to the first, with the numbers of their blocks.
+/// The interrupts whose bits are set, the highest block number first, as index and number of the organization block.
 fn of_bits(bits: u64, first: u16, count: u16) -> impl Iterator<Item = (usize, u16)> {
     (0..count).rev().map(move |index| (usize::from(index), first + index)).filter(move |(_, ob)| bits >> ob & 1 == 1)
 }
