@@ -90,17 +90,22 @@ impl Counter {
     }
 
     pub(super) fn put(&self, batch: Batch) {
-        *self.batch.lock().unwrap_or_else(PoisonError::into_inner) = Some(batch);
+        // Both change under the lock: while more is asked for, no batch lies here that the next one would replace.
+        let mut place = self.batch.lock().unwrap_or_else(PoisonError::into_inner);
+        *place = Some(batch);
         self.is_asked.store(false, Ordering::Release);
+        drop(place);
         self.arrived.notify_one();
     }
 
     /// What was handed over; asks for more if there is nothing.
     pub(super) fn take(&self) -> Option<Batch> {
-        let batch = self.batch.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let mut place = self.batch.lock().unwrap_or_else(PoisonError::into_inner);
+        let batch = place.take();
         if batch.is_none() {
             self.is_asked.store(true, Ordering::Release);
         }
+        drop(place);
         batch
     }
 

@@ -286,31 +286,25 @@ fn events_carry_every_edge() {
     let (name, snapshot) = events.next();
     assert_eq!((name.as_str(), &snapshot["now"]["cycle"]), ("snapshot", &json!(500)));
     assert_eq!(snapshot["now"]["axes"].as_array().unwrap().len(), 3);
+    for value in [1, 0] {
+        page.command(&json!({"set": {"X.traversing_key_plus": value}}));
+        page.command(&json!({"step": 1}));
+    }
     let signals: Value = serde_json::from_str(&page.get("/api/catalogue")).unwrap();
     let index = signals["signals"].as_array().unwrap().iter().position(|row| row["symbol"] == "X.traversing_key_plus");
-    let mut found: Vec<Value> = Vec::new();
-    // The steps of a machine that was just opened may come before the stream has begun: the pulse is repeated until it is in it.
+    let mut found = Vec::new();
     for _ in 0..20 {
-        for value in [1, 0] {
-            page.command(&json!({"set": {"X.traversing_key_plus": value}}));
-            page.command(&json!({"step": 1}));
-        }
-        for _ in 0..3 {
-            let (_, step) = events.next();
-            let edges = step["edges"].as_array().into_iter().flatten();
-            found.extend(edges.filter(|edge| edge["i"] == json!(index)).cloned());
-        }
+        // On a busy computer the first steps of the machine come with these ones, as a new snapshot.
+        let (name, told) = events.next();
+        let edges = if name == "snapshot" { &told["recent"] } else { &told["edges"] };
+        found.extend(edges.as_array().into_iter().flatten().filter(|edge| edge["i"] == json!(index)).cloned());
         if found.len() >= 2 {
             break;
         }
     }
-    let [on, off] = [&found[0], &found[1]];
-    assert_eq!(
-        (&on["v"], &on["by"], &off["v"], &off["by"]),
-        (&json!(1.0), &json!("outside"), &json!(0.0), &json!("outside"))
-    );
-    let length = off["t"].as_f64().unwrap() - on["t"].as_f64().unwrap();
-    assert!((length - 0.002).abs() < 1e-9, "a pulse of one cycle: {found:?}");
+    let expected =
+        [(1.002, 1.0), (1.004, 0.0)].map(|(time, value)| json!({"t": time, "i": index, "v": value, "by": "outside"}));
+    assert_eq!(found, expected);
     assert_eq!(page.state()["writers"].as_array().unwrap().iter().filter(|row| row[0] == json!(index)).count(), 1);
 }
 

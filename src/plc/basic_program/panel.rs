@@ -15,6 +15,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::increments::select_increment;
 use crate::image::ModeGroupToNck;
 use crate::plc::{Link, PlcIo};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
@@ -200,13 +201,7 @@ impl ControlPanel {
         group.set_machine_function_teach_in(mode == Mode::TeachIn);
         group.set_machine_function_repos(mode == Mode::Repos);
         group.set_machine_function_ref(mode == Mode::Reference);
-        group.set_machine_function_increment_1(self.increment == Some(0));
-        group.set_machine_function_increment_10(self.increment == Some(1));
-        group.set_machine_function_increment_100(self.increment == Some(2));
-        group.set_machine_function_increment_1000(self.increment == Some(3));
-        group.set_machine_function_increment_10000(self.increment == Some(4));
-        group.set_machine_function_increment_variable(self.increment == Some(5));
-        group.set_machine_function_continuous(self.increment.is_none());
+        select_increment(group, self.increment);
     }
 
     /// The directions that are pressed, by their axis keys.

@@ -27,6 +27,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::plc::basic_program::select_increment;
 use crate::plc::{ClosureProgram, PlcIo, RisingEdge, program};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 
@@ -80,13 +81,7 @@ impl MachineControlPanel {
         group.set_mode_mdi(mda);
         group.set_mode_jog(jog || reference);
         group.set_machine_function_ref(self.reference);
-        group.set_machine_function_increment_1(self.increment == Some(0));
-        group.set_machine_function_increment_10(self.increment == Some(1));
-        group.set_machine_function_increment_100(self.increment == Some(2));
-        group.set_machine_function_increment_1000(self.increment == Some(3));
-        group.set_machine_function_increment_10000(self.increment == Some(4));
-        group.set_machine_function_increment_variable(self.increment == Some(5));
-        group.set_machine_function_continuous(self.increment.is_none());
+        select_increment(group, self.increment);
         io.to_nck.nck().set_increment_inputs_active_in_mode_group_area(true);
     }
 
