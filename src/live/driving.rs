@@ -11,6 +11,9 @@ pub(super) struct Driving {
     /// In thousandths of real time.
     speed: AtomicU32,
     is_paused: AtomicBool,
+    /// A step is under way or about to begin. It is set before the stepping thread asks whether the machine pauses, so whoever pauses the
+    /// machine and then finds no step under way knows that none follows.
+    is_stepping: AtomicBool,
     /// The steps that a paused machine may still take.
     steps: AtomicU64,
     /// The number of changes: after each one the schedule begins anew.
@@ -20,7 +23,8 @@ pub(super) struct Driving {
 impl Driving {
     pub(super) fn new(speed: Speed) -> Self {
         let speed = AtomicU32::new(speed.thousandths());
-        Self { speed, is_paused: AtomicBool::new(false), steps: AtomicU64::new(0), changes: AtomicU64::new(0) }
+        let (is_paused, is_stepping) = (AtomicBool::new(false), AtomicBool::new(false));
+        Self { speed, is_paused, is_stepping, steps: AtomicU64::new(0), changes: AtomicU64::new(0) }
     }
 
     pub(super) fn speed(&self) -> Speed {
@@ -33,27 +37,42 @@ impl Driving {
     }
 
     pub(super) fn is_paused(&self) -> bool {
-        self.is_paused.load(Ordering::Acquire)
+        self.is_paused.load(Ordering::SeqCst)
+    }
+
+    /// Whether it pauses and no step is under way.
+    pub(super) fn is_at_rest(&self) -> bool {
+        self.is_paused() && !self.is_stepping.load(Ordering::SeqCst)
     }
 
     /// Pauses after the current step, or goes on.
     pub(super) fn pause(&self, is_paused: bool) {
         self.steps.store(0, Ordering::Release);
-        self.is_paused.store(is_paused, Ordering::Release);
+        self.is_paused.store(is_paused, Ordering::SeqCst);
         self.changes.fetch_add(1, Ordering::Release);
     }
 
     /// Pauses, and takes this number of steps more.
     pub(super) fn step(&self, count: u64) {
-        self.is_paused.store(true, Ordering::Release);
+        self.is_paused.store(true, Ordering::SeqCst);
         self.steps.fetch_add(count, Ordering::AcqRel);
         self.changes.fetch_add(1, Ordering::Release);
     }
 
-    /// Whether the next step may be taken; called once for each step.
+    /// Whether the next step may be taken; called once for each step, which [`Driving::stepped`] ends.
     pub(super) fn may_step(&self) -> bool {
         let less = |steps: u64| steps.checked_sub(1);
-        !self.is_paused() || self.steps.fetch_update(Ordering::AcqRel, Ordering::Acquire, less).is_ok()
+        self.is_stepping.store(true, Ordering::SeqCst);
+        let may = !self.is_paused() || self.steps.fetch_update(Ordering::AcqRel, Ordering::Acquire, less).is_ok();
+        if !may {
+            self.stepped();
+        }
+        may
+    }
+
+    /// The step is over.
+    pub(super) fn stepped(&self) {
+        self.is_stepping.store(false, Ordering::SeqCst);
     }
 
     pub(super) fn changes(&self) -> u64 {

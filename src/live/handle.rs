@@ -98,6 +98,12 @@ impl Handle {
         self.0.driving.is_paused()
     }
 
+    /// Whether the machine pauses and its last step is over.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        self.0.driving.is_at_rest()
+    }
+
     /// Follows the machine from now on. A machine has one follower; another one takes its place.
     #[must_use]
     pub fn follow(&self) -> Follower {

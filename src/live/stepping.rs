@@ -238,6 +238,7 @@ fn run(shared: &Shared, ended: &mpsc::Receiver<()>) {
             (begin, simulated) = (Instant::now(), 0);
         }
         let period = step(shared, &mut alarms);
+        driving.stepped();
         if driving.is_paused() {
             // Single steps have no schedule.
             continue;

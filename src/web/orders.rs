@@ -1,11 +1,13 @@
 //! The body of `POST /api/command`: one verb of a scenario that acts at once, or one word that drives the machine.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use serde_json::Value as Json;
+use tokio::time::{sleep, timeout};
 
-use crate::live::{Handle, Order, Speed};
+use crate::live::{Handle, Order, Seen, Speed};
 use crate::machine::{Command, Machine};
 use crate::scenario::commands;
 use crate::source::{Node, Place, Problem, Table, Value};
@@ -17,6 +19,10 @@ pub(super) type Protects = Arc<dyn Fn(&Machine, &Command) -> Option<String> + Se
 const MOST: u32 = 2048;
 /// The most single steps of one request.
 const STEPS: u64 = 1_000_000;
+/// The longest time after which single steps are answered; those that are left are taken later.
+const LONGEST: Duration = Duration::from_secs(10);
+/// How often a waiting request looks whether the last step is over.
+const LOOK: Duration = Duration::from_millis(1);
 
 /// The answer: when the request acts.
 #[derive(Debug, Serialize)]
@@ -99,11 +105,14 @@ async fn drive(live: &Handle, json: &Json) -> Option<Result<(), Problem>> {
     };
     match word.as_str() {
         "pause" => match value.as_bool() {
-            Some(is_paused) => live.pause(is_paused),
+            Some(is_paused) => {
+                live.pause(is_paused);
+                rest(live).await;
+            }
             None => return wrong("true or false", "write {\"pause\": true}"),
         },
         "step" => match value.as_u64() {
-            Some(steps @ 1..=STEPS) => live.step(steps),
+            Some(steps @ 1..=STEPS) => step(live, steps).await,
             Some(_) | None => return wrong("a number of cycles up to a million", "write {\"step\": 1}"),
         },
         "speed" => match value.as_f64().and_then(|speed| speed.to_string().parse::<Speed>().ok()) {
@@ -120,6 +129,26 @@ async fn drive(live: &Handle, json: &Json) -> Option<Result<(), Problem>> {
         _ => return None,
     }
     Some(Ok(()))
+}
+
+/// Takes single steps, after those of earlier requests, and waits until they are over.
+async fn step(live: &Handle, steps: u64) {
+    live.step(0);
+    rest(live).await;
+    let last = live.look(Seen::step) + steps;
+    live.step(steps);
+    // A machine that is held takes its first step when its PLC has come. Another client can pause before the last step.
+    if !live.is_held() && timeout(LONGEST, live.over(last)).await.is_ok() {
+        rest(live).await;
+    }
+}
+
+/// Waits until a machine that pauses has ended its last step: a request that follows finds it there.
+async fn rest(live: &Handle) {
+    let end = Instant::now() + LONGEST;
+    while live.is_paused() && !live.is_at_rest() && Instant::now() < end {
+        sleep(LOOK).await;
+    }
 }
 
 /// The same value as in a file.

@@ -1,7 +1,8 @@
 //! The conditions of signals: in every golden scenario they agree with the signals, and what they name is what the control waits for.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use opennck::golden::{cases, scenario_files};
 use opennck::image::{Location, Memory, Part, Writer};
@@ -125,23 +126,36 @@ fn follow(mut machine: Machine, mut operator: Operator, scenario: String, delay:
     }
 }
 
+/// Follows the files that no other thread has taken.
+fn follow_files(root: &Path, files: &[PathBuf], next: &AtomicUsize) -> Findings {
+    let programs = Programs::ready();
+    let mut wrong = Findings::new();
+    while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
+        let name = file.strip_prefix(root).unwrap_or(file).display().to_string();
+        for case in cases(file).unwrap() {
+            let prepared = case.scenario.prepare(case.profile, &programs).unwrap();
+            let (machine, operator, _) = prepared.into_operator();
+            let text = std::fs::read_to_string(file).unwrap();
+            let delay = text.lines().find_map(|line| line.strip_prefix("to_nck_delay")?.split('"').nth(1));
+            let delay = delay.map_or(0, |delay| Time::parse(delay).unwrap().in_cycles(machine.cycle_time()));
+            wrong.extend(follow(machine, operator, name.clone(), usize::try_from(delay).unwrap()));
+        }
+    }
+    wrong
+}
+
 #[test]
 fn conditions_have_the_value_of_their_signal_and_name_what_it_waits_for() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let programs = Programs::ready();
-    let mut wrong = Findings::new();
-    for file in scenario_files(&[root.join("golden")]).unwrap() {
-        let name = file.strip_prefix(root).unwrap_or(&file).display().to_string();
-        for case in cases(&file).unwrap() {
-            let prepared = case.scenario.prepare(case.profile, &programs).unwrap();
-            let name = name.clone();
-            let (machine, operator, _) = prepared.into_operator();
-            let text = std::fs::read_to_string(&file).unwrap();
-            let delay = text.lines().find_map(|line| line.strip_prefix("to_nck_delay")?.split('"').nth(1));
-            let delay = delay.map_or(0, |delay| Time::parse(delay).unwrap().in_cycles(machine.cycle_time()));
-            wrong.extend(follow(machine, operator, name, usize::try_from(delay).unwrap()));
-        }
-    }
+    let files = scenario_files(&[root.join("golden")]).unwrap();
+    let next = AtomicUsize::new(0);
+    // The longest test of all: each processor takes the next file.
+    let wrong = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..std::thread::available_parallelism().map_or(1, usize::from))
+            .map(|_| scope.spawn(|| follow_files(root, &files, &next)))
+            .collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect::<Findings>()
+    });
     assert!(
         wrong.is_empty(),
         "{} findings\n{}",

@@ -91,7 +91,7 @@ impl Page {
         if cycle > now {
             self.command(&json!({"step": cycle - now}));
         }
-        until(|| self.cycle() == cycle);
+        assert_eq!(self.cycle(), cycle, "single steps are answered when they are taken");
     }
 }
 
