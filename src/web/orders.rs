@@ -1,7 +1,7 @@
 //! The body of `POST /api/command`: one verb of a scenario that acts at once, or one word that drives the machine.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -145,10 +145,12 @@ async fn step(live: &Handle, steps: u64) {
 
 /// Waits until a machine that pauses has ended its last step: a request that follows finds it there.
 async fn rest(live: &Handle) {
-    let end = Instant::now() + LONGEST;
-    while live.is_paused() && !live.is_at_rest() && Instant::now() < end {
-        sleep(LOOK).await;
-    }
+    let rests = async {
+        while live.is_paused() && !live.is_at_rest() {
+            sleep(LOOK).await;
+        }
+    };
+    let _ = timeout(LONGEST, rests).await;
 }
 
 /// The same value as in a file.
