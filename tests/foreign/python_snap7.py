@@ -104,15 +104,12 @@ fails("a download is refused", c.download, bytearray(block), 1003)
 
 # System state lists.
 def runs():
-    """The operating state in list 0424: 08 is RUN. Version 3 requests the state with a read of no item and takes any answer for RUN."""
+    """The operating state in list 0424: 08 is RUN. Version 3 requests the state with a read of no item, which is answered, and takes any answer for RUN."""
     return b"\xff\x08" in bytes(c.read_szl(0x0424, 0).Data)[:8]
 
 
 holds("the CPU runs", runs())
-if IS_NATIVE:
-    holds("and reports it", "Run" in str(c.get_cpu_state()))
-else:
-    fails("a read of no item is refused", c.get_cpu_state)
+holds("and reports it", "Run" in str(c.get_cpu_state()))
 if IS_NATIVE:
     info = c.get_cpu_info()
     equal("type of the CPU", info.ModuleTypeName, b"CPU 317-2 PN/DP")

@@ -10,11 +10,17 @@
 //! | `0015` | 10 | | block types |
 //! | `0019`, `0119`, `0074`, `0174` | 4 | number of a lamp | lamps |
 //! | `001C`, `011C` | 34 | 1 to 11 | names, serial number, location |
-//! | `0131` | 40 | 1, 3 | communication |
+//! | `0131` | 40 | 1 to 6, 9 | communication: what the module is able to do |
 //! | `0132`, `0232` | 40 | 4 | protection |
-//! | `0222` | 28 | 1, 100, 102 | the last start of an organization block |
+//! | `0132` | 40 | 1, 2, 8 to 11 | communication: what happens now; 8 has the clock |
+//! | `0222` | 28 | 1, 80, 100, 102 | the last start of an organization block |
 //! | `0424` | 20 | | operating state and the last change |
+//! | `0D91` | 16 | 0 | the modules of rack 0: the CPU |
 //! | `00A0`, `01A0` | 20 | number of entries | diagnostic buffer |
+//! | `001A`, `001B`, `003A`, `0A00` | | | internal lists that STEP 7 and TIA Portal ask for: they exist and have no records |
+//!
+//! A record whose fields tell of something that this CPU does not have (MPI, run-time meters, time synchronisation, jobs of a programming
+//! device) contains its index and zeros.
 //!
 //! The extract `0Fxx` of a list is only its header, with the number of records of the list.
 
@@ -26,10 +32,11 @@ use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::{Head, Request};
 
 /// All lists in ascending order.
-const LISTS: [u16; 34] = [
-    0x0000, 0x0011, 0x0012, 0x0013, 0x0014, 0x0015, 0x0019, 0x001C, 0x0074, 0x00A0, 0x0111, 0x0112, 0x0113, 0x0119,
-    0x011C, 0x0131, 0x0132, 0x0174, 0x01A0, 0x0222, 0x0232, 0x0424, 0x0F00, 0x0F11, 0x0F12, 0x0F13, 0x0F14, 0x0F15,
-    0x0F19, 0x0F1C, 0x0F31, 0x0F32, 0x0F74, 0x0FA0,
+const LISTS: [u16; 43] = [
+    0x0000, 0x0011, 0x0012, 0x0013, 0x0014, 0x0015, 0x0019, 0x001A, 0x001B, 0x001C, 0x003A, 0x0074, 0x00A0, 0x0111,
+    0x0112, 0x0113, 0x0119, 0x011C, 0x0131, 0x0132, 0x0174, 0x01A0, 0x0222, 0x0232, 0x0424, 0x0A00, 0x0D91, 0x0F00,
+    0x0F0A, 0x0F11, 0x0F12, 0x0F13, 0x0F14, 0x0F15, 0x0F19, 0x0F1A, 0x0F1B, 0x0F1C, 0x0F31, 0x0F32, 0x0F3A, 0x0F74,
+    0x0FA0,
 ];
 
 /// Lamps of a CPU with two interfaces: SF, RUN, STOP, FRCE, bus faults 1 and 2, maintenance demand.
@@ -92,6 +99,7 @@ fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: PduLengt
     let whole = match list {
         0x0F31 => 0x0131,
         0x0F32 => 0x0132,
+        0x0F0A => 0x0A00,
         _ if is_head => list & 0xFF,
         _ => list,
     };
@@ -177,11 +185,15 @@ fn records(list: u16, index: u16, station: &dyn Station, pdu: PduLengths) -> Res
         0x0119 | 0x0174 => lamps(station).only(index),
         0x001C => Ok(names(station)),
         0x011C => names(station).only(index),
+        0x001A | 0x001B | 0x003A | 0x0A00 => Ok(Records::of(2)),
         0x0131 => communication(station, pdu).only(index.max(1)),
-        0x0132 | 0x0232 => match index {
+        0x0132 => status(station).only(if index == 0 { 4 } else { index }),
+        0x0232 => match index {
             0 | 4 => Ok(protection(station)),
             _ => Err(ErrorCode::WRONG_INDEX),
         },
+        0x0D91 if index == 0 => Ok(modules()),
+        0x0D91 => Err(ErrorCode::WRONG_INDEX),
         0x0222 => start_of(index, station),
         0x0424 => Ok(operating_state(station)),
         0x00A0 | 0x01A0 => {
@@ -312,6 +324,25 @@ fn communication(station: &dyn Station, pdu: PduLengths) -> Records {
     let served = [0b0100_0111, 0b1110_0000, 0b1000_0001, 0b0000_0001];
     // 32 jobs with cycles of 0.1 s to 2550 s.
     records.add(&[&[0, 3], &served, &pdu.agreed.to_be_bytes(), &[0, 32, 0, 1], &25_500_u16.to_be_bytes()]);
+    // No functions of a programming device, of object management, of process diagnosis, of communication blocks, of the last kind.
+    [2, 4, 5, 6, 9].into_iter().for_each(|index| records.words(&[index]));
+    records
+}
+
+/// What communication does now: indices 1 (connections), 2 (jobs of a programming device), 4 (protection), 8 (clock), 9 and 10 (baud rates
+/// of MPI and K bus), 11 (run-time meters).
+fn status(station: &dyn Station) -> Records {
+    let mut records = protection(station);
+    [1, 2, 9, 10, 11].into_iter().for_each(|index| records.words(&[index]));
+    // Cycle of the synchronisation, correction and eight run-time meters: none. After the time: meters, status, which is valid.
+    records.add(&[&[0, 8], &[0; 20], &station.clock().bytes(), &[0; 9], &[1]]);
+    records
+}
+
+/// Rack 0, slot 2: a CPU is expected and found (type 00C0); its status says that it is there.
+fn modules() -> Records {
+    let mut records = Records::of(16);
+    records.words(&[0, 0x0200, 0, 0x00C0, 0x00C0, 0, 0x0002, 0]);
     records
 }
 
@@ -325,7 +356,7 @@ fn protection(station: &dyn Station) -> Records {
     records
 }
 
-/// The last start of an organization block: OB1, and the block called by the last restart, 100 or 102.
+/// The last start of an organization block: OB1, OB80, and the block called by the last restart, 100 or 102.
 fn start_of(index: u16, station: &dyn Station) -> Result<Records, ErrorCode> {
     let entries = station.diagnosis();
     let started = entries.iter().position(|entry| entry.event == Diagnosis::START_UP);
@@ -334,6 +365,8 @@ fn start_of(index: u16, station: &dyn Station) -> Result<Records, ErrorCode> {
     let mut records = Records::of(28);
     // Event class and start event, priority class, number; eight bytes of its own; time of the start.
     match (index, restart) {
+        // A time error would have started OB80; none did, and the record says so by zeros behind the number.
+        (80, _) => records.add(&[&[0, 0, 0x1A, 80]]),
         (0 | 1, _) => records.add(&[&[0x11, 0x03, 0x01, 0x01], &[0; 8], &station.clock().bytes()]),
         (100, Some((before, time))) if !is_cold(before) => {
             records.add(&[&[0x13, 0x81, 0x1B, 100], &[0; 8], &time]);

@@ -1,6 +1,9 @@
 //! Read and write variables. Each item succeeds or is refused separately. All items of a write request are checked first and then executed
 //! together. If the answer would be longer than the negotiated PDU, the request is refused as a wrong frame, as by a module. An item that
 //! reaches beyond its area does not count for that length: it is refused separately with `05`.
+//!
+//! A choice: a read request without items, even without their number, is answered with no items. python-snap7 3 takes any answer to it for
+//! the state RUN and for a sign of life, and a refusal for a lost connection.
 
 use arrayvec::ArrayVec;
 
@@ -18,9 +21,7 @@ const NCK_SLOTS: [u8; 2] = [3, 4];
 
 impl Session {
     pub(super) fn read_variables(&mut self, rest: &[u8], exchange: &mut Exchange<'_>) {
-        let Some((&count, bytes)) = rest.split_first().filter(|(count, _)| **count > 0) else {
-            return exchange.refuse(ErrorCode::WRONG_FRAME);
-        };
+        let (count, bytes) = rest.split_first().map_or((0, rest), |(&count, bytes)| (count, bytes));
         let mut items = ArrayVec::<Item, 255>::new();
         for item in Items::new(bytes, count.into()) {
             let Ok(item) = item else {

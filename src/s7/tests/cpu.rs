@@ -43,6 +43,34 @@ fn every_list_that_is_listed_can_be_read() {
     }
 }
 
+/// System Software for S7-300/400, 33.16: in record 8 of list 0132 the time follows 22 bytes behind its beginning, and the last byte is 1: the
+/// status is valid. The other records tell of functions that this CPU does not have. No rack but 0, no module in it but the CPU.
+#[test]
+fn lists_that_engineering_tools_ask_for_can_be_read() {
+    let mut client = Client::ready(960);
+    for (of, indices) in [("01 31", &[2, 4, 5, 6, 9][..]), ("01 32", &[1, 2, 9, 10, 11])] {
+        for index in indices {
+            let (length, count, record) = list(&mut client, of, &format!("00 {index:02X}"));
+            assert_eq!((length, count), (40, 1), "{of} {index}");
+            assert_eq!(record[..2], [0, *index], "{of}");
+            assert!(record[2..].iter().all(|byte| *byte == 0), "{of} {index}");
+        }
+    }
+    let time = client.clock.bytes();
+    let (_, _, record) = list(&mut client, "01 32", "00 08");
+    assert_eq!((&record[..2], &record[22..30], record[39]), (&[0, 8][..], &time[..], 1));
+    let (length, count, record) = list(&mut client, "0D 91", "00 00");
+    assert_eq!((length, count), (16, 1));
+    assert_eq!(hex(&record), "00 00 02 00 00 00 00 C0 00 C0 00 00 00 02 00 00");
+    assert_eq!(client.user_data(4, 1, "0D 91 00 01").0, "D4 02", "there is no rack 1");
+    let (_, _, record) = list(&mut client, "02 22", "00 50");
+    assert_eq!(hex(&record[..4]), "00 00 1A 50");
+    for (of, head) in [("00 1A", "0F 1A"), ("00 1B", "0F 1B"), ("00 3A", "0F 3A"), ("0A 00", "0F 0A")] {
+        assert_eq!(list(&mut client, of, "00 00").1, 0, "{of}");
+        assert_eq!(list(&mut client, head, "00 00").1, 0, "{head}");
+    }
+}
+
 /// System Software for S7-300/400, 33.2: the fourth word of the header is the number of records, and `0Fxx` is only the header. snap7 has
 /// `0F 14 00 00 00 08 00 09` and others, captured at a CPU 315.
 #[test]
@@ -79,7 +107,8 @@ fn a_list_or_an_index_that_does_not_exist_is_refused() {
         ("FF FF FF FF", "D4 01"),
         ("01 11 00 02", "D4 02"),
         ("01 1C 00 06", "D4 02"),
-        ("01 31 00 02", "D4 02"),
+        ("01 31 00 07", "D4 02"),
+        ("01 32 00 03", "D4 02"),
         ("02 32 00 01", "D4 02"),
         ("01 74 00 02", "D4 02"),
         ("01 12 09 00", "D4 02"),

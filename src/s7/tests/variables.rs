@@ -149,8 +149,6 @@ fn items_of_other_syntaxes_are_refused_by_themselves() {
 fn items_that_end_early_refuse_the_whole_request() {
     let mut client = Client::ready(240);
     for parameter in [
-        "04",
-        "04 00",
         "04 01",
         "04 01 12",
         "04 01 12 0A 10 02 00 01 03 E8 84 00 00",
@@ -282,4 +280,13 @@ fn a_value_of_no_known_kind_is_inconsistent_and_is_not_written() {
         assert!(answer.ends_with("05 01 07"), "{size}: {answer}");
     }
     assert!(client.commands.is_empty());
+}
+
+/// python-snap7 3 sends them for the state of the CPU and as a sign of life. A write without items remains a wrong frame.
+#[test]
+fn a_read_without_items_is_answered_with_no_items() {
+    let mut client = Client::ready(480);
+    assert_eq!(client.job("04", ""), "00 02 00 00 00 00 04 00");
+    assert_eq!(client.job("04 00", ""), "00 02 00 00 00 00 04 00");
+    assert_eq!(client.job("05 00", ""), "00 00 00 00 85 00");
 }
