@@ -127,7 +127,7 @@ impl Hub {
         let lines = batch.trace.lines(machine, &Watch::default());
         let mut shared = self.lock();
         let time = batch.begin.seconds();
-        if batch.is_new && machine.time() < shared.time {
+        if batch.is_new && batch.begin < shared.time {
             // The machine went back. Who wrote a signal before that is known only if nobody wrote it later.
             shared.past.forget_after(time);
             shared.recent.retain(|edge| edge.t <= time);

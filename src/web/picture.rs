@@ -1,6 +1,6 @@
 //! The machine as JSON: its state after a step, and what happened in some steps.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use serde::Serialize;
 
@@ -96,14 +96,20 @@ pub(super) struct Written(f64, &'static str, Option<String>);
 #[derive(Debug, Default)]
 pub(super) struct Past {
     pub(super) writers: BTreeMap<usize, Written>,
-    alarms: BTreeMap<(String, String), (f64, Option<String>)>,
+    /// The last times at which an alarm was raised: the machine can go back behind one of them.
+    alarms: BTreeMap<(String, String), VecDeque<(f64, Option<String>)>>,
 }
+
+/// The times that are kept of one alarm.
+const RAISED: usize = 32;
 
 impl Past {
     /// Forgets what was after a time in seconds.
     pub(super) fn forget_after(&mut self, time: f64) {
         self.writers.retain(|_, written| written.0 <= time);
-        self.alarms.retain(|_, (raised, _)| *raised <= time);
+        for times in self.alarms.values_mut() {
+            times.retain(|(raised, _)| *raised <= time);
+        }
     }
 }
 
@@ -151,7 +157,9 @@ pub(super) fn edges(lines: Vec<Line>, begin: Time, catalogue: &Catalogue, past: 
             LineKind::Alarm(line) => {
                 let a = Some(format!("{} {}", line.name, line.text));
                 if line.raised {
-                    past.alarms.insert((line.name, line.place), (t, line.because.clone()));
+                    let times = past.alarms.entry((line.name, line.place)).or_default();
+                    times.push_back((t, line.because.clone()));
+                    times.drain(..times.len().saturating_sub(RAISED));
                 }
                 let v = Some(f64::from(u8::from(line.raised)));
                 Edge { a, v, by: "nck", why: line.because, kind: Some("alarm"), ..edge }
@@ -220,7 +228,7 @@ impl Alarm {
         let (name, place) = (machine.alarm_name(alarm.number), place_name(alarm.place, machine.names()));
         let row = machine.control().texts().alarm(alarm.number);
         let (cancelled_by, reaction) = row.map_or_else(Default::default, |row| (row.cancelled_by, row.reaction));
-        let known = past.alarms.get(&(name.clone(), place.clone()));
+        let known = past.alarms.get(&(name.clone(), place.clone())).and_then(VecDeque::back);
         let (time, because) = known.cloned().map_or((None, None), |(time, because)| (Some(time), because));
         Self { name, place, text: machine.alarm_text(alarm), because, time, cancelled_by, reaction }
     }

@@ -10,7 +10,7 @@ use tokio::net::TcpListener;
 use tokio::runtime::{Builder, Runtime};
 use tokio::sync::oneshot;
 
-use super::connections::{Admits, Doors};
+use super::connections::{Admits, Doors, Places};
 use super::guard::Guard;
 use super::hub::Hub;
 use super::options::WebOptions;
@@ -92,7 +92,7 @@ fn serve(
     ended: oneshot::Receiver<()>,
 ) {
     runtime.block_on(async {
-        let (places, router) = (Doors::places(), router(site));
+        let (places, router) = (Places::default(), router(site));
         for listener in listeners {
             let opened = listener.set_nonblocking(true).and_then(|()| TcpListener::from_std(listener));
             match opened {

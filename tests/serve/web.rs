@@ -318,6 +318,26 @@ fn alarms_come_with_their_cause() {
     until(|| page.state()["now"]["alarms"][0]["because"].is_string());
     let alarm = page.state()["now"]["alarms"][0].clone();
     assert!(alarm["text"].as_str().unwrap().contains('X') && alarm["time"].as_f64().unwrap() > 1.0, "{alarm}");
+    // Behind it, and back to a moment at which it was pending: the cause is still known.
+    page.command(&json!({"step": 80}));
+    page.command(&json!({"go_back": 550}));
+    page.command(&json!({"step": 1}));
+    until(|| page.state()["now"]["cycle"] == json!(551));
+    assert_eq!(page.state()["now"]["alarms"][0], alarm);
+}
+
+/// There are 128 places. A client that has done nothing for a second loses its place to a new one.
+#[test]
+fn silent_clients_keep_nobody_out() {
+    let page = Page::open(|_| {});
+    let mut silent: Vec<_> = (0..128).map(|_| page.connect()).collect();
+    for stream in silent.iter_mut().skip(64) {
+        stream.write_all(b"GET /api/state HT").unwrap();
+    }
+    std::thread::sleep(Duration::from_millis(1_200));
+    let begin = Instant::now();
+    assert!(page.get("/api/state").starts_with('{'));
+    assert!(begin.elapsed() < Duration::from_secs(5), "it waits for the end of the others: {:?}", begin.elapsed());
 }
 
 /// A client that reads nothing gets a snapshot when it reads again; the machine and other clients go on.

@@ -148,12 +148,9 @@ fn items_of_other_syntaxes_are_refused_by_themselves() {
 #[test]
 fn items_that_end_early_refuse_the_whole_request() {
     let mut client = Client::ready(240);
-    for parameter in [
-        "04 01",
-        "04 01 12",
-        "04 01 12 0A 10 02 00 01 03 E8 84 00 00",
-        "04 02 12 0A 10 02 00 01 03 E8 84 00 00 00",
-    ] {
+    for parameter in
+        ["04 01", "04 01 12", "04 01 12 0A 10 02 00 01 03 E8 84 00 00", "04 02 12 0A 10 02 00 01 03 E8 84 00 00 00"]
+    {
         assert_eq!(client.job(parameter, ""), "00 00 00 00 85 00", "{parameter}");
     }
 }
