@@ -97,8 +97,11 @@ pub(super) struct Written(f64, &'static str, Option<String>);
 pub(super) struct Past {
     pub(super) writers: BTreeMap<usize, Written>,
     /// The last times at which an alarm was raised: the machine can go back behind one of them.
-    alarms: BTreeMap<(String, String), VecDeque<(f64, Option<String>)>>,
+    alarms: BTreeMap<(String, String), VecDeque<Raised>>,
 }
+
+/// When and why an alarm was raised.
+type Raised = (f64, Option<String>);
 
 /// The times that are kept of one alarm.
 const RAISED: usize = 32;
