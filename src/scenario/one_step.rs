@@ -29,12 +29,13 @@ const AT_ONCE: [&str; 16] = [
 /// Those of faults.
 const FAULTS: [&str; 2] = ["fault", "clear_fault"];
 
-/// The commands of a step, `{ set = { "X.traversing_key_plus" = 1 } }`, checked against the machine. Its verb acts at once.
+/// The commands of a step, `{ set = { "X.traversing_key_plus" = 1 } }`, checked against the machine. Its verb acts at once. `others` are
+/// words that the caller executes itself: an error lists them with the verbs.
 ///
 /// # Errors
 /// The step has no such verb, or a name or a value in it is wrong.
-pub fn commands(step: Table, machine: &Machine) -> Result<Vec<Command>, Problem> {
-    let known = || AT_ONCE.into_iter().chain(FAULTS);
+pub fn commands(step: Table, machine: &Machine, others: &[&'static str]) -> Result<Vec<Command>, Problem> {
+    let known = || AT_ONCE.into_iter().chain(FAULTS).chain(others.iter().copied());
     if let Some(other) = step.keys().find(|key| *key != "channel" && !known().any(|verb| verb == *key)) {
         let fallback = format!("verbs are {}", known().collect::<Vec<_>>().join(", "));
         let what = format!("expected a verb that acts at once, found `{other}`");

@@ -5,6 +5,7 @@
 //! of both. Outputs are written with [`Replacement`]: a file is complete, or it is not changed.
 
 mod encoding;
+mod json;
 mod node;
 mod replacement;
 

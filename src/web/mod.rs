@@ -6,6 +6,7 @@
 //! | path | answer |
 //! |---|---|
 //! | `/`, `/page/…` | the page |
+//! | `/api/openapi.json` | the description of these paths: `docs/openapi.json` |
 //! | `/api/catalogue` | what does not change: signals, axes, flowcharts, panel, steps of the scenario, as JSON |
 //! | `/api/state` | the machine after its last step, as JSON |
 //! | `/api/why?signal=X.…&value=1` | the conditions for this value of a signal, as JSON |

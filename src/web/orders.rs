@@ -23,6 +23,8 @@ const STEPS: u64 = 1_000_000;
 const LONGEST: Duration = Duration::from_secs(10);
 /// How often a waiting request looks whether the last step is over.
 const LOOK: Duration = Duration::from_millis(1);
+/// The words that drive the machine.
+const DRIVES: [&str; 4] = ["pause", "step", "speed", "go_back"];
 
 /// The answer: when the request acts.
 #[derive(Debug, Serialize)]
@@ -60,7 +62,7 @@ pub(super) async fn execute(
         driven?;
         return Ok(live.look(|seen| Taken { cycle: seen.machine().cycle(), step: seen.step() }));
     }
-    let node = node(&json, &Place::file("the request"))?;
+    let node = Node::from_json(&json, &Place::file("the request"))?;
     let Value::Table(table) = node.value else {
         let what = "expected an object with one verb, found something else";
         return Err(Problem::new(what, "write {\"set\": {\"X.traversing_key_plus\": 1}}").into());
@@ -72,7 +74,7 @@ pub(super) async fn execute(
 fn order(live: &Handle, table: Table, protects: &Protects, holds: impl FnOnce(&[Command])) -> Result<Taken, Refusal> {
     let commands = live.look(|seen| {
         let machine = seen.machine();
-        let commands = commands(table, machine)?;
+        let commands = commands(table, machine, &DRIVES)?;
         match commands.iter().find_map(|command| protects(machine, command)) {
             Some(reason) => Err(Refusal::Forbidden(reason)),
             None => Ok(commands),
@@ -151,28 +153,4 @@ async fn rest(live: &Handle) {
         }
     };
     let _ = timeout(LONGEST, rests).await;
-}
-
-/// The same value as in a file.
-fn node(json: &Json, place: &Place) -> Result<Node, Problem> {
-    let value = match json {
-        Json::Null => return Err(Problem::new("expected a value, found null", "write a number, a text or true")),
-        Json::Bool(value) => Value::Boolean(*value),
-        Json::String(text) => Value::Text(text.clone()),
-        Json::Number(number) => match (number.as_i64(), number.as_f64()) {
-            (Some(number), _) => Value::Integer(number),
-            (None, Some(number)) => Value::Float(number),
-            (None, None) => return Err(Problem::new("expected a smaller number", "write a number of 64 bits")),
-        },
-        Json::Array(list) => Value::Array(list.iter().map(|one| node(one, place)).collect::<Result<_, _>>()?),
-        Json::Object(object) => {
-            let mut table = Table::empty(place.clone());
-            for (key, value) in object {
-                // A path of one key in an empty table is always free.
-                let _ = table.put(&[key], place, node(value, place)?);
-            }
-            Value::Table(table)
-        }
-    };
-    Ok(Node { place: place.clone(), value })
 }

@@ -77,6 +77,7 @@ pub(super) fn router(site: Site) -> Router {
         .route("/", get(|| async { ([(header::CONTENT_TYPE, "text/html; charset=utf-8")], PAGE) }))
         .route("/favicon.svg", get(|| async { ([(header::CONTENT_TYPE, "image/svg+xml")], ICON) }))
         .route("/page/{name}", get(file))
+        .route("/api/openapi.json", get(|| async { json(StatusCode::OK, OPENAPI) }))
         .route("/api/catalogue", get(catalogue))
         .route("/api/state", get(state))
         .route("/api/why", get(why))
@@ -91,6 +92,8 @@ pub(super) fn router(site: Site) -> Router {
 
 const PAGE: &str = include_str!("page/index.html");
 const ICON: &str = include_str!("page/favicon.svg");
+/// The description of these paths for programs. `tests/serve/openapi.rs` compares it with them.
+const OPENAPI: &str = include_str!("../../docs/openapi.json");
 
 fn json(status: StatusCode, text: impl Into<Body>) -> Response {
     (status, [(header::CONTENT_TYPE, JSON)], text.into()).into_response()

@@ -7,6 +7,8 @@ mod another_server;
 mod clients;
 mod lying_proxy;
 mod mapped_image;
+#[cfg(feature = "web")]
+mod openapi;
 #[path = "../processes/mod.rs"]
 mod processes;
 mod program;

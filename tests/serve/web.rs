@@ -15,14 +15,18 @@ use opennck::web::{WebOptions, WebServer};
 use serde_json::{Value, json};
 
 /// A machine and its page, which ends first.
-struct Page {
+pub(super) struct Page {
     server: WebServer,
     live: Live,
 }
 
 impl Page {
-    fn open(change: impl FnOnce(&mut WebOptions)) -> Self {
-        let opening = Opening { machine: Some(Path::new("g1_example")), plc: Some("enable_all"), ..Opening::default() };
+    pub(super) fn open(change: impl FnOnce(&mut WebOptions)) -> Self {
+        Self::open_machine("g1_example", Some("enable_all"), change)
+    }
+
+    pub(super) fn open_machine(machine: &str, plc: Option<&str>, change: impl FnOnce(&mut WebOptions)) -> Self {
+        let opening = Opening { machine: Some(Path::new(machine)), plc, ..Opening::default() };
         let opened = opening.open(&Programs::ready(), &mut |_| {}).unwrap();
         let mut options = WebOptions::new("127.0.0.1:0", &opened);
         change(&mut options);
@@ -43,7 +47,7 @@ impl Page {
     }
 
     /// The answer to a request: status, headers, body.
-    fn ask(&self, method: &str, path: &str, headers: &str, body: &str) -> (u16, String, String) {
+    pub(super) fn ask(&self, method: &str, path: &str, headers: &str, body: &str) -> (u16, String, String) {
         let mut stream = self.connect();
         let host = if headers.contains("Host:") { String::new() } else { format!("Host: {}\r\n", self.address()) };
         let length = body.len();
@@ -57,7 +61,7 @@ impl Page {
         (status, head.to_owned(), body.to_owned())
     }
 
-    fn get(&self, path: &str) -> String {
+    pub(super) fn get(&self, path: &str) -> String {
         let (status, head, body) = self.ask("GET", path, "", "");
         assert_eq!(status, 200, "{path}: {head}");
         body
@@ -67,14 +71,14 @@ impl Page {
         serde_json::from_str(&self.get("/api/state")).unwrap()
     }
 
-    fn post(&self, body: &Value, headers: &str) -> (u16, Value) {
+    pub(super) fn post(&self, body: &Value, headers: &str) -> (u16, Value) {
         let headers = format!("Content-Type: application/json\r\n{headers}");
         let (status, _, body) = self.ask("POST", "/api/command", &headers, &body.to_string());
         (status, serde_json::from_str(&body).unwrap_or_default())
     }
 
     #[track_caller]
-    fn command(&self, body: &Value) -> u64 {
+    pub(super) fn command(&self, body: &Value) -> u64 {
         let (status, answer) = self.post(body, "");
         assert_eq!(status, 200, "{body}: {answer}");
         answer["cycle"].as_u64().unwrap()
@@ -85,7 +89,7 @@ impl Page {
     }
 
     /// Pauses, and takes single steps up to a cycle.
-    fn step_to(&self, cycle: u64) {
+    pub(super) fn step_to(&self, cycle: u64) {
         self.command(&json!({"pause": true}));
         let now = self.cycle();
         if cycle > now {
@@ -105,17 +109,17 @@ fn until(mut is_so: impl FnMut() -> bool) {
 }
 
 /// The stream of events of a client.
-struct Events(BufReader<TcpStream>);
+pub(super) struct Events(BufReader<TcpStream>);
 
 impl Events {
-    fn open(page: &Page) -> Self {
+    pub(super) fn open(page: &Page) -> Self {
         let mut stream = page.connect();
         stream.write_all(format!("GET /events HTTP/1.1\r\nHost: {}\r\n\r\n", page.address()).as_bytes()).unwrap();
         Self(BufReader::new(stream))
     }
 
     /// The next event: its name and its data.
-    fn next(&mut self) -> (String, Value) {
+    pub(super) fn next(&mut self) -> (String, Value) {
         let mut name = String::new();
         loop {
             let mut line = String::new();
