@@ -16,6 +16,7 @@ mod generators;
 mod include;
 mod matrix;
 mod naming;
+mod one_by_one;
 mod one_step;
 mod operator;
 mod passing;

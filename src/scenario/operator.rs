@@ -105,6 +105,17 @@ impl Plan {
         Failure::Missed(missed)
     }
 
+    /// The steps, with those that they include.
+    pub(super) fn stages(&self) -> Vec<Stage> {
+        let stage = |step: &Step| Stage { place: step.place.clone(), note: step.note.as_deref().map(str::to_owned) };
+        self.steps.steps.iter().map(stage).collect()
+    }
+
+    /// The index of the step that is executed; the number of steps if all are done.
+    pub(super) fn index(&self) -> usize {
+        self.index
+    }
+
     pub(super) fn looks_back(&self) -> bool {
         self.steps.steps.iter().any(Step::looks_back)
     }
@@ -193,8 +204,7 @@ impl Operator {
     /// Its steps, with those that it includes.
     #[must_use]
     pub fn stages(&self) -> Vec<Stage> {
-        let stage = |step: &Step| Stage { place: step.place.clone(), note: step.note.as_deref().map(str::to_owned) };
-        self.plan.steps.steps.iter().map(stage).collect()
+        self.plan.stages()
     }
 
     /// The index of the step that is executed; the number of steps if all are done.

@@ -7,7 +7,7 @@ use super::failure::{Failure, Missed};
 use super::fields::{Named, in_the_case};
 use super::file::Scenario;
 use super::include::included_by;
-use super::operator::{Operator, Plan};
+use super::operator::{Operator, Plan, Stage};
 use super::passing::Next;
 use super::session::Session;
 use super::steps::{Reader, Steps};
@@ -36,6 +36,7 @@ pub struct Prepared {
 /// A scenario after its run.
 pub struct Finished {
     session: Session,
+    plan: Plan,
     head: Head,
     causes: bool,
     /// The part of the trace that waveform and diagram show.
@@ -317,7 +318,8 @@ impl Prepared {
         // A run that was to end here is not judged by what its rules still wait for.
         let failure = if is_cut { None } else { book.finish(failure, machine) };
         let failure = failure.map(|failure| failure.of_case(self.head.case.as_deref()));
-        Finished { session: self.session, head: self.head, causes: self.causes, window: Window::default(), failure }
+        let Self { session, plan, head, causes, .. } = self;
+        Finished { session, plan, head, causes, window: Window::default(), failure }
     }
 
     /// The failure of a PLC process that has ended or is silent. The PLC is then in STOP, and no step of the scenario is a test of it.
@@ -440,6 +442,18 @@ impl Finished {
     #[must_use]
     pub fn margins(&self) -> Vec<String> {
         self.session.book.margins()
+    }
+
+    /// Its steps, with those that it includes.
+    #[must_use]
+    pub fn stages(&self) -> Vec<Stage> {
+        self.plan.stages()
+    }
+
+    /// The index of the step at which it ended: the one that failed, or the number of steps if all are done.
+    #[must_use]
+    pub fn reached(&self) -> usize {
+        self.plan.index()
     }
 
     /// The machine at the end, with its trace.

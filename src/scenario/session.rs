@@ -7,13 +7,11 @@ use std::path::Path;
 
 use super::duration::Duration;
 use super::failure::Failure;
-use super::file::steps_of;
 use super::naming::{Known, check_captured_name, enable_of, place_named, writable};
-use super::operator::Plan;
 use super::passing::{Book, Next, Progress};
 use super::program_rows::{begun, program_rows, remember};
 use super::programs::Text;
-use super::steps::{Action, Reader, Steps};
+use super::steps::Action;
 use super::values::Setting;
 use crate::expression::{Expression, Followed};
 use crate::image::Location;
@@ -297,33 +295,6 @@ impl Session {
         self.book.expect_bits(&bytes, &self.machine)
     }
 
-    /// Executes the steps of a scenario file, or of a file that has only steps; a head has no effect. Captured names are shared.
-    ///
-    /// # Errors
-    /// The file cannot be used, or a step fails.
-    pub fn include(&mut self, file: impl AsRef<Path>) -> Result<(), Failure> {
-        let file = file.as_ref();
-        let mut reader = Reader::new(&self.machine, file);
-        reader.captured.clone_from(&self.book.captured_names);
-        reader.followed.clone_from(&self.book.followed);
-        let mut steps = Steps::default();
-        reader.steps(&steps_of(file)?, &mut steps)?;
-        let Reader { captured, followed, programs, .. } = reader;
-        programs.load(&mut self.machine);
-        self.book.captured_names = captured;
-        self.follow_more(followed);
-        let mut plan = Plan::new(steps);
-        loop {
-            let Self { machine, book, trace, .. } = self;
-            let note = &mut |machine: &Machine, text: &str| trace.note(machine.cycle() + 1, text);
-            if plan.go_on(book, machine, note)? == Next::Over {
-                return Ok(());
-            }
-            self.cycle();
-            plan.end_cycle(&mut self.book, &self.machine)?;
-        }
-    }
-
     /// The expression must be true after every cycle from now on.
     ///
     /// # Errors
@@ -472,7 +443,7 @@ impl Session {
     }
 
     /// Takes over what new expressions follow.
-    fn follow_more(&mut self, mut followed: Followed) {
+    pub(super) fn follow_more(&mut self, mut followed: Followed) {
         if followed.is_more_than(&self.book.followed) {
             self.begin_edges(&mut followed);
             self.book.follow(followed, &self.machine);

@@ -1,0 +1,1 @@
+../../../examples/python_plc/opennck_image.py
