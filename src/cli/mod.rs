@@ -211,6 +211,12 @@ enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
+    /// Writes the manual pages (man) of the program and of each command into a folder.
+    #[command(hide = true)]
+    Man {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// Works with NC programs.
     Nc {
         #[command(subcommand)]
@@ -334,6 +340,7 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::TuneLimits(arguments)) => tune_limits::tune_limits(&arguments, programs, &mut output),
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
+        Some(Command::Man { folder }) => completions::man(&folder, Arguments::command(), &mut output),
         Some(Command::Nc { command }) => nc::run(&command, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine, case, all, deny } }) => {
             machine_data::check(&machine, case.as_deref(), all, &deny, &mut output)

@@ -629,6 +629,27 @@ fn each_shell_has_completions() {
     assert_eq!(opennck(&["completions", "cmd"], &directory).status.code(), Some(2));
 }
 
+#[test]
+fn every_command_has_a_manual_page() {
+    let directory = directory("man");
+    let output = opennck(&["man", "."], &directory);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let help = out(&opennck(&["--help"], &directory));
+    let (_, commands) = help.split_once("Commands:\n").unwrap();
+    let (commands, _) = commands.split_once("\n\n").unwrap();
+    let is_name = |line: &&str| line.starts_with("  ") && !line.starts_with("   ");
+    let names = commands.lines().filter(is_name).filter_map(|line| line.split_whitespace().next());
+    let mut count = 0;
+    for name in names.filter(|name| *name != "help") {
+        let page = fs::read_to_string(directory.join(format!("opennck-{name}.1"))).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{name}: {page}");
+        count += 1;
+    }
+    assert!(count > 10, "{help}");
+    assert!(fs::read_to_string(directory.join("opennck.1")).unwrap().contains("opennck\\-run(1)"));
+    assert_eq!(opennck(&["man", "missing"], &directory).status.code(), Some(2));
+}
+
 /// Skipped on a system without bash.
 #[test]
 fn bash_sources_its_completions_and_completes_a_command() {
