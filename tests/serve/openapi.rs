@@ -111,7 +111,7 @@ fn the_server_takes_every_example() {
     for (name, example) in content["examples"].as_object().unwrap() {
         let machine = example["x-opennck-machine"].as_str();
         let page = machine.map_or_else(|| Page::open(|_| {}), |machine| Page::open_machine(machine, None, |_| {}));
-        page.step_to(20);
+        page.step_to(1000);
         conforms(&document, "Command", &example["value"]);
         let (status, answer) = page.post(&example["value"], "");
         assert_eq!(status, 200, "{name}: {answer}");
