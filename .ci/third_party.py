@@ -1,12 +1,16 @@
-"""Prints the packages inside the program with their licences and the texts of these, for a release."""
+"""Prints the packages inside the program with their licences and the texts of these, for a release: `third_party.py TARGET`."""
 
 import json
 import pathlib
 import subprocess
+import sys
 
 metadata = json.loads(
     subprocess.run(
-        ["cargo", "metadata", "--format-version", "1", "--locked"], check=True, capture_output=True, encoding="utf-8"
+        ["cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", sys.argv[1]],
+        check=True,
+        capture_output=True,
+        encoding="utf-8",
     ).stdout
 )
 packages = {package["id"]: package for package in metadata["packages"]}

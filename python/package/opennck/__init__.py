@@ -7,7 +7,7 @@ words are those of scenario files, and errors are those of the program `opennck`
 from importlib.metadata import version as _version
 
 from ._opennck import Error, Missed, PlcIo
-from .program import program
+from .installed import program
 from .scenarios import Result, Step, run, test
 from .server import Server, serve
 from .session import Session

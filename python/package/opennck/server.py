@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from ._opennck import Error
-from .program import program
+from .installed import program
 
 #: The last line that the program prints at its start.
 _READY = "press Ctrl-C to stop"
