@@ -213,6 +213,12 @@ pub trait Control: Send + Sync + Debug {
         None
     }
 
+    /// The PLC goes to STOP: makes its signals those of a PLC that does not run, and returns whether there are such. The default is a control that
+    /// shares its memory with the PLC, where they stay as they are.
+    fn neutralise(&self, _to_nck: &mut [u8]) -> bool {
+        false
+    }
+
     /// Position control of an axis in part `part` (from 1) of `of` parts of the interpolation cycle. Returns the velocity command for the
     /// drive, in increments per second; `None` for a drive without power. `counts` are the present values of both encoders.
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64>;

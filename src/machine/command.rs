@@ -83,7 +83,7 @@ pub enum Command {
     NewConf,
     /// Power off and on.
     PowerOn,
-    /// The PLC stops.
+    /// The PLC stops: its outputs are 0, and so are its signals to a SINUMERIK.
     PlcStop,
     /// The PLC restarts: OB100, then OB1.
     PlcRun,

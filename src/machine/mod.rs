@@ -87,14 +87,19 @@ impl Machine {
     /// become as large as the program needs them.
     pub fn load_program(&mut self, mut program: Box<dyn PlcProgram>) {
         let mut memory = self.definition.memory.clone();
-        program.install(&mut memory, &self.definition.names);
+        // The control names channels that the machine does not have, too.
+        let mut names = self.definition.names.clone();
+        for (channel, name) in names.channels.iter_mut() {
+            name.take_if(|_| !self.control.has_channel(channel));
+        }
+        program.install(&mut memory, &names);
         let is_changed = memory != self.definition.memory;
         if is_changed || program.cycle().is_some() {
             let plc_cycle = program.cycle().or(self.definition.plc_cycle);
             self.definition = Arc::new(self.definition.with_program(memory, plc_cycle));
         }
         if is_changed {
-            program.install(&mut self.state.memory, &self.definition.names);
+            program.install(&mut self.state.memory, &names);
             self.before = Before::new(&self.state.memory);
         }
         self.program = Some(program);
@@ -139,10 +144,12 @@ impl Machine {
         }
     }
 
-    /// Why the PLC program changed bits in the last cycle, if it is observed and says so.
+    /// Why the PLC program changed bits in the last cycle, if it is observed and says so, and what a STOP of the PLC reset.
     #[must_use]
     pub fn program_causes(&self) -> Vec<ProgramCause> {
-        self.program.as_ref().map_or_else(Vec::new, |program| program.causes(self.state.cycle))
+        let mut causes = self.program.as_ref().map_or_else(Vec::new, |program| program.causes(self.state.cycle));
+        causes.extend(self.causes_of_stop());
+        causes
     }
 
     /// The symbols of the PLC program for bits, timers and counters, by their addresses such as `I1.0` and `T5`; none if it has no table.

@@ -109,7 +109,7 @@ impl Machine {
                 self.record_activated(By::PowerOn);
             }
             Command::PlcStop => {
-                let is_new = !std::mem::replace(&mut self.state.plc.stopped, true);
+                let is_new = self.enter_stop();
                 let event = self.control.command(&ControlCommand::PlcMissing);
                 if is_new {
                     self.record_happening(Happening::PlcStopped, By::Outside, event);

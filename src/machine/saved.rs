@@ -17,7 +17,7 @@ use crate::units::{AxisSet, PerAxis, PerChannel};
 use crate::variables::Alarms;
 
 /// Version of the format of a saved machine.
-const VERSION: u32 = 15;
+const VERSION: u32 = 16;
 
 #[derive(Serialize, Deserialize)]
 struct Saved {

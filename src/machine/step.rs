@@ -116,7 +116,7 @@ impl Machine {
             self.record_command(&order, event, By::Plc);
         }
         if let Err(fault) = done {
-            self.state.plc.stopped = true;
+            self.enter_stop();
             self.state.plc.fault = Some(fault.reason);
             self.state.plc.diagnosis = fault.diagnosis;
             let event = self.control.command(&ControlCommand::PlcMissing);
@@ -130,7 +130,7 @@ impl Machine {
             return;
         }
         let Some(reason) = self.control.stops_plc() else { return };
-        self.state.plc.stopped = true;
+        self.enter_stop();
         self.state.plc.fault = Some(reason);
         let event = self.control.command(&ControlCommand::PlcMissing);
         self.record_happening(Happening::PlcStopped, By::Nck, event);

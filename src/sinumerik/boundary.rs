@@ -120,6 +120,25 @@ impl Control for Nck {
         Some(format!("user alarm {alarm} stops the PLC (MD14516 bit 4)"))
     }
 
+    /// The basic program no longer transfers them: they are 0. Measuring systems and pulse enables stay, so that the axes can brake (P-150).
+    fn neutralise(&self, to_nck: &mut [u8]) -> bool {
+        let Some(signals) = ToNck::of_bytes_mut(to_nck) else { return false };
+        let kept = AxisNumber::all().map(|axis| {
+            let of = signals.axis(axis);
+            (axis, [of.position_measuring_system_1(), of.position_measuring_system_2(), of.pulse_enable()])
+        });
+        let kept: Vec<_> = kept.filter(|(_, kept)| kept.contains(&true)).collect();
+        to_nck.fill(0);
+        if let Some(signals) = ToNck::of_bytes_mut(to_nck) {
+            for (axis, [first, second, pulses]) in kept {
+                signals.axis(axis).set_position_measuring_system_1(first);
+                signals.axis(axis).set_position_measuring_system_2(second);
+                signals.axis(axis).set_pulse_enable(pulses);
+            }
+        }
+        true
+    }
+
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64> {
         Self::velocity_command(self, axis, counts, part, of)
     }
