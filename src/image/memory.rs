@@ -71,6 +71,12 @@ impl Blocks {
         self.0.get_mut(place).map(|block| &mut block.bytes)
     }
 
+    /// Removes a block; `false` if there is none with this number.
+    pub fn remove(&mut self, number: u16) -> bool {
+        let place = self.place(number);
+        place.map(|place| self.0.remove(place)).is_some()
+    }
+
     /// Adds a block and replaces a block with the same number.
     pub fn put(&mut self, block: DataBlock) {
         match self.0.binary_search_by_key(&block.number, |other| other.number) {

@@ -10,10 +10,12 @@ impl Memory {
     /// The position of `bytes` bytes from `byte` of an area on. All of them exist, but the run can be shorter.
     pub(super) fn run(&self, area: Area, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Problem> {
         if let Area::DataBlock(db) = area {
-            if profile.has(db) {
+            // A block of the PLC program with the number of a block that this machine does not use (P-151).
+            let is_own = self.blocks.get(db).is_some();
+            if !is_own && profile.has(db) {
                 return profile.run(db, byte, byte.saturating_add(bytes.max(1)) - 1);
             }
-            if self.blocks.get(db).is_none() {
+            if !is_own {
                 return Err(self.unknown(db, profile));
             }
         }

@@ -95,10 +95,12 @@ impl Machine {
     /// Writes the record of a step.
     pub(super) fn record(&mut self) {
         let mut parts = std::mem::take(&mut self.before.parts);
-        // A program has made a data block: its bytes were 0 before.
-        let known = parts.len() - FIXED.len();
-        if self.state.memory.blocks.iter().nth(known).is_some() {
-            for (place, block) in self.state.memory.blocks.iter().enumerate() {
+        let blocks = &self.state.memory.blocks;
+        let known = parts.iter().skip(FIXED.len()).map(|(part, _)| *part);
+        if !known.eq(blocks.iter().map(|block| Part::Block(block.number))) {
+            // A program has deleted data blocks, or made some: their bytes were 0 before.
+            parts.retain(|(part, _)| !matches!(part, Part::Block(number) if blocks.get(*number).is_none()));
+            for (place, block) in blocks.iter().enumerate() {
                 let part = Part::Block(block.number);
                 if parts.get(FIXED.len() + place).is_none_or(|(known, _)| *known != part) {
                     parts.insert(FIXED.len() + place, (part, vec![0; block.bytes.len()]));

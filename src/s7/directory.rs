@@ -16,7 +16,7 @@ impl Directory {
     pub fn of(memory: &Memory, profile: Profile) -> Self {
         // An interface block ends after its last byte; gaps before it count.
         let end = |number| profile.spans(number).last().map_or(0, |(_, end)| *end);
-        let interface = profile.data_blocks().into_iter();
+        let interface = profile.data_blocks().into_iter().filter(|number| memory.blocks.get(*number).is_none());
         let mut blocks: Vec<_> = interface.map(|number| BlockInfo { number, length: end(number) }).collect();
         blocks.extend(memory.blocks.iter().filter_map(|block| {
             let length = u16::try_from(block.bytes.len()).ok()?;

@@ -62,9 +62,10 @@ impl Layout {
         let mut layout = Self { sections: Vec::new(), pieces: Vec::new(), length: 0 };
         let own = |db| memory.blocks.get(db).map_or(0, |bytes| bytes.len());
         for db in 1..=u16::MAX {
-            let is_interface = names.profile.has(db);
-            let spans = names.profile.spans(db).into_iter().map(|(first, end)| (first.into(), end.into()));
-            let own = (!is_interface).then(|| (0, own(db)));
+            let is_own = memory.blocks.get(db).is_some();
+            let spans = if is_own { Vec::new() } else { names.profile.spans(db) };
+            let spans = spans.into_iter().map(|(first, end)| (first.into(), end.into()));
+            let own = is_own.then(|| (0, own(db)));
             let name = name(memory, names, db);
             for (first, end) in spans.chain(own) {
                 layout.append(memory, names.profile, Area::DataBlock(db), first, end, &name)?;

@@ -44,13 +44,14 @@ impl Map {
     /// The data blocks of a memory and of the interface of a machine.
     pub(super) fn new(memory: &Memory, names: &Names) -> Self {
         let mut map = Self::default();
-        for (place, block) in memory.blocks.iter().enumerate() {
-            map.enter(block.number, u32::try_from(place).unwrap_or(u32::MAX));
-        }
         for number in names.profile.data_blocks() {
             let slot = u32::try_from(map.interface.len()).unwrap_or(0);
             map.enter(number, INTERFACE | slot);
             map.interface.push(bytes(&names.profile.places(number)));
+        }
+        // A block of the program wins: it has the number of an axis or a channel that the machine does not have (P-151).
+        for (place, block) in memory.blocks.iter().enumerate() {
+            map.enter(block.number, u32::try_from(place).unwrap_or(u32::MAX));
         }
         map
     }
@@ -199,6 +200,11 @@ impl Areas for View<'_> {
         }
         self.blocks.put(DataBlock { number, name: None, bytes: Bytes::from(vec![0; length.into()]) });
         true
+    }
+
+    fn delete(&mut self, number: u16) -> bool {
+        let is_loaded = self.map.slots.get(usize::from(number)).is_some_and(|slot| *slot != 0);
+        !is_loaded && self.blocks.remove(number)
     }
 
     fn is_interface(&self, block: OpenBlock) -> bool {
