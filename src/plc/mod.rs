@@ -100,7 +100,7 @@ pub struct ProgramCause {
 }
 
 /// An operand that a program has tested.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Tested {
     /// A bit of the memory.
     Bit(Location, bool),
@@ -114,6 +114,8 @@ pub enum Tested {
     Counter(u16, bool),
     /// The value of a counter as it was loaded.
     CounterValue(u16, u16),
+    /// An operation whose operand is no part of the memory, such as a status bit, with its place, and the bit that it tested.
+    Operation(Arc<str>, bool),
 }
 
 impl ProgramCause {

@@ -1,5 +1,7 @@
 //! Why the PLC program changed bits, from the machine to the trace.
 
+use std::sync::Arc;
+
 use crate::image::{Format, Location, Names, Part};
 use crate::machine::Machine;
 use crate::plc::{ProgramCause, Tested};
@@ -8,18 +10,26 @@ use crate::trace::{ProgramRow, Trace};
 /// Why the PLC program changed bits in the last cycle, for the trace.
 pub(super) fn program_rows(machine: &Machine) -> impl Iterator<Item = ProgramRow> {
     let names = machine.names();
-    let tested = move |tested: &Tested| match *tested {
-        Tested::Bit(location, value) => (location, value.into()),
-        Tested::Word(location, value) => (in_its_format(location, names), value.into()),
-        Tested::Timer(number, status) => (word(Part::Timers, number), status.into()),
-        Tested::TimerValue(number, value) => (word(Part::Timers, number), value.into()),
-        Tested::Counter(number, status) => (word(Part::Counters, number), status.into()),
-        Tested::CounterValue(number, value) => (word(Part::Counters, number), value.into()),
+    let tested = move |tested: &Tested| {
+        Some(match *tested {
+            Tested::Bit(location, value) => (location, value.into()),
+            Tested::Word(location, value) => (in_its_format(location, names), value.into()),
+            Tested::Timer(number, status) => (word(Part::Timers, number), status.into()),
+            Tested::TimerValue(number, value) => (word(Part::Timers, number), value.into()),
+            Tested::Counter(number, status) => (word(Part::Counters, number), status.into()),
+            Tested::CounterValue(number, value) => (word(Part::Counters, number), value.into()),
+            Tested::Operation(..) => return None,
+        })
+    };
+    let operation = |tested: &Tested| match tested {
+        Tested::Operation(text, value) => Some((Arc::clone(text), *value)),
+        _ => None,
     };
     machine.program_causes().into_iter().map(move |cause| {
         let ProgramCause { part, bit, bits, value, statement, tested: operands } = cause;
-        let tested = operands.iter().map(tested).collect();
-        ProgramRow { cycle: machine.cycle(), part, bit, bits, value: value != 0, statement, tested }
+        let operations = operands.iter().filter_map(operation).collect();
+        let tested = operands.iter().filter_map(tested).collect();
+        ProgramRow { cycle: machine.cycle(), part, bit, bits, value: value != 0, statement, tested, operations }
     })
 }
 

@@ -191,6 +191,9 @@ impl Tree<'_> {
                 plc::Tested::CounterValue(number, value) => {
                     self.value(word(Part::Counters, number), value.into(), depth + 1);
                 }
+                plc::Tested::Operation(ref text, value) => {
+                    self.line(depth + 1, false, &format!("{text} = {}", u8::from(value)));
+                }
             }
         }
     }

@@ -23,7 +23,8 @@ pub(super) fn by_program(trace: &Trace, row: &ProgramRow, names: &Names) -> Stri
         let name = names.symbol(location).unwrap_or_else(|| trace.program_name(&address));
         format!("{name} = {}", Shown::of(location, value))
     });
-    let tested: Vec<_> = tested.collect();
+    let operations = row.operations.iter().map(|(text, value)| format!("{text} = {}", u8::from(*value)));
+    let tested: Vec<_> = tested.chain(operations).collect();
     if tested.is_empty() { row.statement.to_string() } else { format!("{}: {}", row.statement, tested.join(", ")) }
 }
 

@@ -1,6 +1,7 @@
 //! The events in a trace: consecutively numbered, each with the inputs that it tested and the event that led to it.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::Trace;
 use super::because::{because, by_program, input_name, per_turn};
@@ -110,13 +111,15 @@ impl Trace {
                 }
             }
         };
+        let operation =
+            |(text, value): &(Arc<str>, bool)| CauseInput::Value(text.to_string(), u8::from(*value).to_string());
         Cause {
             number,
             time: self.time(row.cycle),
             place: "PLC".to_owned(),
             rule: "PLC".to_owned(),
             because: by_program(self, row, names),
-            inputs: row.tested.iter().map(input).collect(),
+            inputs: row.tested.iter().map(input).chain(row.operations.iter().map(operation)).collect(),
             parent: 0,
         }
     }

@@ -85,6 +85,8 @@ pub struct ProgramRow {
     pub statement: Arc<str>,
     /// The operands that were tested or read, with their raw values.
     pub tested: Vec<(Location, u64)>,
+    /// Operations whose operands are no part of the memory, with their places, and what they tested.
+    pub operations: Vec<(Arc<str>, bool)>,
 }
 
 impl Trace {

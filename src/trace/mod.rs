@@ -34,7 +34,7 @@
 //!
 //! `event` is a unique number in a trace. A change names the event that caused it, an event names the event that led to it as `parent`. A
 //! trace contains only events that caused changes in it. `inputs` lists what the event tested: objects with `signal`, `symbol` and `value`,
-//! with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a velocity, with `alarm`, with `fault`, or with
+//! with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length, a velocity or an operation of the PLC program, with `alarm`, with `fault`, or with
 //! `timer` (`T5`, `C3`) and the `value` of its status.
 //! The event of a happening is the root of what follows from it. So the chain of
 //! causes can be followed without the machine ([`Story`], `opennck why`), as far as the trace watches its signals. [`Reading`] compares two

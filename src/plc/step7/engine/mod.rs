@@ -3,6 +3,7 @@
 mod access;
 mod arithmetic;
 mod calls;
+mod contacts;
 mod cpu;
 mod fault;
 mod flow;
@@ -28,8 +29,9 @@ pub use memory::{Area, Areas, OpenBlock, OwnMemory};
 pub use registers::{Registers, Status};
 
 pub(in crate::plc::step7) use access::{Spot, Where};
+pub(in crate::plc::step7) use contacts::text_of;
 pub(in crate::plc::step7) use hours_meter::HoursMeter;
 pub(in crate::plc::step7) use interrupts::{Delay, Period, TimeOfDay};
 pub(in crate::plc::step7) use observe::{Kind, kind};
 pub(in crate::plc::step7) use observed::{NO, Observed, RAN, Seen, YES};
-pub(in crate::plc::step7) use read::{Named, Read};
+pub(in crate::plc::step7) use read::{Named, Read, TESTED};

@@ -9,14 +9,27 @@ use crate::plc::step7::instruction::{Condition, CopySource, Instance, Jump, Op, 
 use crate::plc::step7::system::{SYSTEM, System};
 
 use super::access::{Spot, Where};
+use super::contacts::local;
 use super::cpu::Cpu;
 use super::flow::width_of;
 use super::memory::{Area, Areas};
 use super::observed::{CHANGES, Clock, NO, RAN, Seen, WORDS, YES};
-use super::read::{Named, Read};
+use super::origin::Origin;
+use super::read::{Named, Read, TESTED};
 
 /// The bit address of Q in the instance of an IEC timer; IN is its first bit.
 const Q: u32 = 6 * 8;
+
+/// The bits that differ, with their new values.
+fn changed_bits<'a>(before: &'a [u8], now: &'a [u8]) -> impl Iterator<Item = (u32, bool)> + 'a {
+    (0_u32..).zip(before.iter().zip(now)).filter(|(_, (before, now))| before != now).flat_map(
+        |(byte, (before, now))| {
+            (0..8)
+                .filter(move |bit| (before ^ now) >> bit & 1 == 1)
+                .map(move |bit| (byte * 8 + bit, now >> bit & 1 == 1))
+        },
+    )
+}
 
 /// So many bytes of the interface are compared at once.
 const PIECE: usize = 64;
@@ -130,7 +143,7 @@ impl Cpu {
         }
     }
 
-    /// After a block of the basic program: what it wrote to the NCK, without reasons of its own.
+    /// After a block of the basic program: what it wrote to the NCK, on account of what it read.
     pub(in crate::plc::step7) fn note_interface(&mut self, before: &[u8], now: &[u8]) {
         let Some(observed) = &mut self.observed else { return };
         // Most calls change nothing: whole pieces are compared first.
@@ -138,27 +151,79 @@ impl Cpu {
             return;
         }
         let pc = observed.pc;
+        let tested = if observed.has_all_writes { ArrayVec::new() } else { observed.inputs.clone() };
         let pieces = before.chunks(PIECE).zip(now.chunks(PIECE));
         for (first, (before, now)) in (0_u32..).step_by(PIECE).zip(pieces).filter(|(_, (before, now))| before != now) {
-            for (byte, (before, now)) in (first..).zip(before.iter().zip(now)) {
-                for bit in (0..8).filter(|bit| (before ^ now) >> bit & 1 == 1) {
-                    if observed.seen.len() < CHANGES || observed.has_all_writes {
-                        let (place, value) = (Named::ToNck(byte * 8 + bit), u32::from(now >> bit & 1));
-                        observed.seen.push(Seen { pc, place, bits: 1, value, tested: ArrayVec::new() });
-                    }
+            for (bit, value) in changed_bits(before, now) {
+                if observed.seen.len() < CHANGES || observed.has_all_writes {
+                    let place = Named::ToNck(first * 8 + bit);
+                    observed.seen.push(Seen { pc, place, bits: 1, value: value.into(), tested: tested.clone() });
                 }
             }
         }
     }
 
-    /// An output of a block of the basic program changes.
-    pub(in crate::plc::step7) fn note_output(&mut self, spot: Spot, value: bool) {
+    /// After a built-in block: one of its outputs, with its value before and now.
+    pub(in crate::plc::step7) fn note_called<A: Areas>(
+        &mut self,
+        areas: &A,
+        spot: Spot,
+        bits: u32,
+        (before, now): (u32, u32),
+    ) {
         let place = self.named(spot);
-        if let (Some(place), Some(observed)) = (place, &mut self.observed)
-            && (observed.seen.len() < CHANGES || observed.has_all_writes)
-        {
+        let is_word = bits > 1 && !matches!(spot.at, Where::Block(block) if areas.is_interface(block));
+        let Some(observed) = &mut self.observed else { return };
+        let mut tested = observed.inputs.clone();
+        if let Some(from) = local(spot) {
+            observed.flow.set_local(from, bits, Origin::made_of(&tested));
+        }
+        if observed.has_all_writes && bits == 1 {
+            // Whoever asks why a bit is not another one must not read that each input should be.
+            tested.clear();
+        }
+        let Some(place) = place else { return };
+        let has_room = observed.seen.len() < CHANGES && (!is_word || observed.words < WORDS);
+        if observed.has_all_writes || has_room && before != now {
+            observed.words += usize::from(is_word);
             let pc = observed.pc;
-            observed.seen.push(Seen { pc, place, bits: 1, value: value.into(), tested: ArrayVec::new() });
+            observed.seen.push(Seen { pc, place, bits, value: now, tested });
+        }
+    }
+
+    /// Adds something that a built-in block has read: by its name, or for local data by what it was made of.
+    pub(in crate::plc::step7) fn note_read(
+        &self,
+        spot: Spot,
+        width: Width,
+        value: u32,
+        inputs: &mut ArrayVec<Read, TESTED>,
+    ) {
+        let mut add = |read: Read| {
+            if !inputs.contains(&read) {
+                let _ = inputs.try_push(read);
+            }
+        };
+        if let Some(from) = local(spot) {
+            let origin = self.observed.as_ref().map(|observed| observed.flow.of_local(from, width.bits()));
+            origin.unwrap_or_default().reads().unwrap_or_default().iter().for_each(|read| add(*read));
+        } else if let Some(named) = self.named(spot) {
+            add(Read { named, bits: u8::try_from(width.bits()).unwrap_or(u8::MAX), value });
+        }
+    }
+
+    /// Adds the bits that have changed to what the block that runs has read.
+    pub(in crate::plc::step7) fn note_changed(
+        &mut self,
+        before: &[u8],
+        now: &[u8],
+        named: impl Fn(u32) -> Option<Named>,
+    ) {
+        let Some(observed) = &mut self.observed else { return };
+        for (bit, value) in changed_bits(before, now) {
+            if let Some(named) = named(bit) {
+                let _ = observed.inputs.try_push(Read::bit(named, value));
+            }
         }
     }
 

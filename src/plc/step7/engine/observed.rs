@@ -3,9 +3,10 @@
 
 use arrayvec::ArrayVec;
 
+use super::contacts::Contacts;
 use super::memory::OpenBlock;
 use super::origin::Flow;
-use super::read::{Named, OPERANDS, Read};
+use super::read::{Named, Read, TESTED};
 
 /// The changes that are kept of one cycle.
 pub(in crate::plc::step7) const CHANGES: usize = 512;
@@ -28,7 +29,7 @@ pub(in crate::plc::step7) struct Seen {
     pub(in crate::plc::step7) bits: u32,
     /// The new value; of a timer whether it is started.
     pub(in crate::plc::step7) value: u32,
-    pub(in crate::plc::step7) tested: ArrayVec<Read, OPERANDS>,
+    pub(in crate::plc::step7) tested: ArrayVec<Read, TESTED>,
 }
 
 /// What was observed of a program.
@@ -48,6 +49,15 @@ pub(in crate::plc::step7) struct Observed {
     pub(in crate::plc::step7) clock: Option<Clock>,
     /// Where the values in the accumulators come from.
     pub(in crate::plc::step7) flow: Flow,
+    /// What the last bit operations tested.
+    pub(in crate::plc::step7) contacts: Contacts,
+    /// What the built-in block that runs has read.
+    pub(in crate::plc::step7) inputs: ArrayVec<Read, TESTED>,
+    /// The signals of the NCK in the last cycle, and in this one.
+    pub(in crate::plc::step7) from_nck: [Vec<u8>; 2],
+    /// The keys of the panels and the messages of DB2 in their last calls.
+    pub(in crate::plc::step7) keys: [[u8; 8]; 2],
+    pub(in crate::plc::step7) messages: Vec<u8>,
     /// The interface to the NCK before a block of the basic program; kept, so that no call allocates.
     pub(in crate::plc::step7) interface: Vec<u8>,
 }
@@ -71,6 +81,11 @@ impl Observed {
             pc: 0,
             clock: None,
             flow: Flow::default(),
+            contacts: Contacts::new(),
+            inputs: ArrayVec::new(),
+            from_nck: [Vec::new(), Vec::new()],
+            keys: [[0; 8]; 2],
+            messages: Vec::new(),
             interface: Vec::new(),
         }
     }
@@ -79,5 +94,10 @@ impl Observed {
     pub(in crate::plc::step7) fn begin_cycle(&mut self) {
         self.seen.clear();
         self.words = 0;
+        // A cycle in which no block has read them does not count.
+        if !self.from_nck[1].is_empty() {
+            self.from_nck.swap(0, 1);
+            self.from_nck[1].clear();
+        }
     }
 }

@@ -350,7 +350,7 @@ fn open(areas: &impl Areas, number: u16) -> Option<OpenBlock> {
     if number == 0 { Some(OpenBlock::default()) } else { areas.block(number) }
 }
 
-fn status_bit(status: Status, bit: StatusBit) -> bool {
+pub(super) fn status_bit(status: Status, bit: StatusBit) -> bool {
     let (cc1, cc0) = (status.cc1, status.cc0);
     match bit {
         StatusBit::Zero => !cc1 && !cc0,

@@ -2,14 +2,14 @@
 
 use arrayvec::ArrayVec;
 
-use crate::plc::step7::instruction::Accumulators;
+use crate::plc::step7::instruction::{Accumulators, StatusBit};
 
 use super::read::{OPERANDS, Read};
 
 /// Values in local data that are followed at a time.
 const LOCALS: usize = 64;
-/// Comparisons that are remembered.
-pub(super) const COMPARISONS: usize = 16;
+/// Bit operations without an operand of their own that are remembered.
+const REMEMBERED: usize = 32;
 
 /// The operands of which a value was made.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +28,12 @@ impl Origin {
         let mut origin = Self::constant();
         origin.reads.iter_mut().for_each(|reads| reads.push(read));
         origin
+    }
+
+    /// The origin of a value that is made of these; unknown if they are too many.
+    pub(super) fn made_of(reads: &[Read]) -> Self {
+        let mut made = ArrayVec::new();
+        Self { reads: made.try_extend_from_slice(reads).is_ok().then_some(made) }
     }
 
     /// The origin of a value that is made of two.
@@ -54,8 +60,12 @@ pub(in crate::plc::step7) struct Flow {
     pub(super) accu: [Origin; 4],
     /// Values in the local data, by the bits from which and to which they reach, in the order in which they were written.
     pub(super) local: Vec<(u32, u32, Origin)>,
-    /// The last comparisons: their instructions and what they compared.
-    pub(super) compared: Vec<(u32, Origin, bool)>,
+    /// The condition codes, OV, and BR.
+    pub(super) codes: Origin,
+    pub(super) overflow: Origin,
+    pub(super) binary_result: Origin,
+    /// The last comparisons, tests of status bits and of local bits: their instructions and of what they were made.
+    remembered: Vec<(u32, Origin)>,
     /// The instruction to which the last jump, call or end of a block led. What follows it ran in order.
     pub(in crate::plc::step7) landed: u32,
 }
@@ -63,7 +73,31 @@ pub(in crate::plc::step7) struct Flow {
 impl Flow {
     /// An organization block begins at an instruction.
     pub(in crate::plc::step7) fn begin(start: u32) -> Self {
-        Self { landed: start, ..Self::default() }
+        // Its status word begins with 0.
+        let [codes, overflow, binary_result] = std::array::from_fn(|_| Origin::constant());
+        Self { landed: start, codes, overflow, binary_result, ..Self::default() }
+    }
+
+    /// The origin of a status bit; OS has a history of its own.
+    pub(super) fn of_status(&self, bit: StatusBit) -> Origin {
+        match bit {
+            StatusBit::Overflow => self.overflow.clone(),
+            StatusBit::StoredOverflow => Origin::default(),
+            StatusBit::BinaryResult => self.binary_result.clone(),
+            StatusBit::Zero
+            | StatusBit::NotZero
+            | StatusBit::Positive
+            | StatusBit::Negative
+            | StatusBit::NotNegative
+            | StatusBit::NotPositive
+            | StatusBit::Unordered => self.codes.clone(),
+        }
+    }
+
+    /// An operation sets the condition codes and OV.
+    pub(super) fn set_codes(&mut self, origin: Origin) {
+        self.overflow = origin.clone();
+        self.codes = origin;
     }
 
     /// ACCU1 has a value from elsewhere.
@@ -71,15 +105,28 @@ impl Flow {
         self.accu[0] = Origin::default();
     }
 
+    /// A built-in block may have written to local data, and sets BR.
+    pub(super) fn forget_called(&mut self) {
+        self.local.clear();
+        self.binary_result = Origin::default();
+    }
+
     /// The origin of ACCU1.
     pub(in crate::plc::step7) fn accu1(&self) -> &Origin {
         &self.accu[0]
     }
 
-    /// What a comparison that ran since the last jump compared, and its result.
-    pub(in crate::plc::step7) fn comparison(&self, at: u32) -> Option<(&Origin, bool)> {
-        let (_, origin, result) = self.compared.iter().rev().find(|(pc, ..)| *pc == at && at >= self.landed)?;
-        Some((origin, *result))
+    /// Remembers of what the bit was made that an instruction tested.
+    pub(super) fn remember(&mut self, at: u32, origin: Origin) {
+        if self.remembered.len() == REMEMBERED {
+            self.remembered.remove(0);
+        }
+        self.remembered.push((at, origin));
+    }
+
+    /// Of what the bit was made that an instruction tested when it ran last.
+    pub(in crate::plc::step7) fn remembered(&self, at: u32) -> Option<&Origin> {
+        self.remembered.iter().rev().find(|(pc, _)| *pc == at).map(|(_, origin)| origin)
     }
 
     pub(super) fn load(&mut self, origin: Origin) {

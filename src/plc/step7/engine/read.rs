@@ -2,8 +2,10 @@
 
 use super::memory::Area;
 
-/// The operands that are kept of one change.
+/// The operands that are followed of one value.
 pub(in crate::plc::step7) const OPERANDS: usize = 8;
+/// The operands that are kept of one change.
+pub(in crate::plc::step7) const TESTED: usize = 24;
 
 /// A place that has a name outside of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +17,10 @@ pub(in crate::plc::step7) enum Named {
     Counter(u16),
     /// The part that the PLC writes to the NCK.
     ToNck(u32),
+    /// The part that the NCK writes.
+    FromNck(u32),
+    /// The bit operation at an instruction, whose operand has no name: a status bit, a comparison, a local bit.
+    Operation(u32),
 }
 
 /// An operand that was read, with the value that it had.

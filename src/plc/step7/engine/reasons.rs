@@ -1,17 +1,20 @@
-//! The operands that made the RLO of an instruction: the logic string before it is read backwards, evaluated again with the present values,
-//! and only if the result is the RLO, the operands on its decisive paths are named. So nothing is named that was not tested.
+//! The operands that made the RLO of an instruction: the logic string before it is read backwards and evaluated again with what its
+//! operations have tested, and only if the result is the RLO, the operands on its decisive paths are named. So nothing is named that was not
+//! tested, and nothing that decided is left out: where an operand has no name, its operation is named.
 
 use arrayvec::ArrayVec;
 
-use crate::plc::step7::instruction::{CopySource, Jump, Logic, Number, Op, Operand, Space};
+use crate::plc::step7::instruction::{CopySource, Jump, Logic, Op, Operand, Space};
 
+use super::contacts::{Contact, local};
 use super::cpu::Cpu;
 use super::flow::width_of;
-use super::memory::{Areas, OpenBlock};
-use super::read::{Named, OPERANDS, Read};
+use super::memory::Areas;
+use super::origin::Origin;
+use super::read::{Named, OPERANDS, Read, TESTED};
 
 /// The nodes of the tree of a logic string.
-const NODES: usize = 96;
+const NODES: usize = 128;
 /// Instructions that are read backwards.
 const LONGEST: u32 = 400;
 /// Local bits that are followed to the string that wrote them, one within another.
@@ -21,14 +24,12 @@ type Index = u8;
 
 #[derive(Clone, Copy, Debug)]
 enum Node {
-    /// An operand and its value; without a name it is local data or unknown.
-    Leaf(Option<Named>, bool),
-    /// A comparison: its number in the tree, and its result.
-    Compared(Index, bool),
-    /// A value that cannot be read again: a status bit, an edge. It is what fits.
-    Open,
-    /// An edge: its marker, whose value was tested, and the logic before it.
-    Edge(Option<Named>, bool, Index),
+    /// What an operation tested.
+    Leaf(Named, bool),
+    /// A comparison, a status bit or a local bit: the number of what it was made of, and its result.
+    Made(Index, bool),
+    /// An edge: its result, its marker if that decided with its value before, and the logic before it.
+    Edge(bool, Option<Named>, bool, Index),
     Not(Index),
     And(Index, Index),
     Or(Index, Index),
@@ -39,10 +40,23 @@ enum Node {
 #[derive(Debug, Default)]
 struct Tree {
     nodes: ArrayVec<Node, NODES>,
-    /// What the comparisons compared.
-    compared: Vec<ArrayVec<Read, OPERANDS>>,
-    /// How many values are open.
-    open: u8,
+    /// Of what comparisons, status bits and local bits were made.
+    made: Vec<ArrayVec<Read, OPERANDS>>,
+}
+
+/// The operands that decide, as long as they are complete.
+#[derive(Debug, Default)]
+struct Decisive {
+    reads: ArrayVec<Read, TESTED>,
+    is_cut: bool,
+}
+
+impl Decisive {
+    fn add(&mut self, read: Read) {
+        if !self.reads.contains(&read) {
+            self.is_cut |= self.reads.try_push(read).is_err();
+        }
+    }
 }
 
 /// The present state of the string: the terms before `O`, and the term since.
@@ -54,9 +68,6 @@ struct Term {
 
 impl Tree {
     fn add(&mut self, node: Node) -> Option<Index> {
-        if matches!(node, Node::Open | Node::Edge(..)) {
-            self.open += 1;
-        }
         self.nodes.try_push(node).ok()?;
         Index::try_from(self.nodes.len() - 1).ok()
     }
@@ -90,57 +101,41 @@ impl Tree {
         })
     }
 
-    /// The value of a node, with this value for those that are open.
-    fn value(&self, index: Index, open: bool) -> bool {
+    fn value(&self, index: Index) -> bool {
         match self.nodes[usize::from(index)] {
-            Node::Leaf(_, value) | Node::Compared(_, value) => value,
-            Node::Open | Node::Edge(..) => open,
-            Node::Not(x) => !self.value(x, open),
-            Node::And(x, y) => self.value(x, open) && self.value(y, open),
-            Node::Or(x, y) => self.value(x, open) || self.value(y, open),
-            Node::Xor(x, y) => self.value(x, open) != self.value(y, open),
+            Node::Leaf(_, value) | Node::Made(_, value) | Node::Edge(value, ..) => value,
+            Node::Not(x) => !self.value(x),
+            Node::And(x, y) => self.value(x) && self.value(y),
+            Node::Or(x, y) => self.value(x) || self.value(y),
+            Node::Xor(x, y) => self.value(x) != self.value(y),
         }
     }
 
     /// The leaves that decide the value of a node.
-    fn decisive(&self, index: Index, open: bool, tested: &mut ArrayVec<Read, OPERANDS>) {
-        let mut keep = |named: Option<Named>, value: bool| {
-            let read = named.map(|named| Read::bit(named, value));
-            if let Some(read) = read.filter(|read| !tested.contains(read)) {
-                let _ = tested.try_push(read);
-            }
-        };
+    fn decisive(&self, index: Index, found: &mut Decisive) {
         match self.nodes[usize::from(index)] {
-            Node::Leaf(named, value) => keep(named, value),
-            Node::Compared(number, _) => {
-                for read in &self.compared[usize::from(number)] {
-                    if !tested.contains(read) {
-                        let _ = tested.try_push(*read);
-                    }
+            Node::Leaf(named, value) => found.add(Read::bit(named, value)),
+            Node::Made(number, _) => self.made[usize::from(number)].iter().for_each(|read| found.add(*read)),
+            Node::Edge(_, marker, before, inner) => {
+                if let Some(marker) = marker {
+                    found.add(Read::bit(marker, before));
                 }
+                self.decisive(inner, found);
             }
-            Node::Open => {}
-            Node::Edge(marker, value, inner) => {
-                // Where there was no edge although its logic is as it must be, the marker decided.
-                if !open {
-                    keep(marker, value);
-                }
-                self.decisive(inner, open, tested);
-            }
-            Node::Not(x) => self.decisive(x, open, tested),
+            Node::Not(x) => self.decisive(x, found),
             Node::And(x, y) | Node::Or(x, y) => {
                 let is_and = matches!(self.nodes[usize::from(index)], Node::And(..));
-                let value = self.value(index, open);
+                let value = self.value(index);
                 for part in [x, y] {
                     // All of an AND that is true and of an OR that is false; else the parts that decided alone.
-                    if value == is_and || self.value(part, open) == value {
-                        self.decisive(part, open, tested);
+                    if value == is_and || self.value(part) == value {
+                        self.decisive(part, found);
                     }
                 }
             }
             Node::Xor(x, y) => {
-                self.decisive(x, open, tested);
-                self.decisive(y, open, tested);
+                self.decisive(x, found);
+                self.decisive(y, found);
             }
         }
     }
@@ -148,16 +143,15 @@ impl Tree {
 
 impl Cpu {
     /// The operands that made the RLO before an instruction that writes, or the operand that it copies.
-    pub(super) fn reasons<A: Areas>(&mut self, areas: &A, op: Op, pc: u32, tested: &mut ArrayVec<Read, OPERANDS>) {
+    pub(super) fn reasons<A: Areas>(&mut self, areas: &A, op: Op, pc: u32, tested: &mut ArrayVec<Read, TESTED>) {
+        if self.work.mcr.is_off() && !matches!(op, Op::Copy(_)) {
+            // The zone of the MCR made the value.
+            return;
+        }
         if let Op::Copy(index) = op
             && width_of(self.program.copies[index as usize].bits).is_none()
         {
-            if let CopySource::Operand(operand) = self.program.copies[index as usize].from
-                && let Ok(spot) = self.spot(areas, operand)
-                && let (Some(named), Ok(value)) = (self.named(spot), self.read_bit(areas, spot))
-            {
-                tested.push(Read::bit(named, value));
-            }
+            self.copied_bit(areas, index, tested);
             return;
         }
         if let Op::Transfer(..) | Op::Copy(_) = op {
@@ -169,27 +163,41 @@ impl Cpu {
             }
         }
         let mut tree = Tree::default();
-        let string = if matches!(op, Op::Transfer(..)) { None } else { self.string(areas, pc, &mut tree, 0) };
+        let string = if matches!(op, Op::Transfer(..)) { None } else { self.string(pc, &mut tree, 0) };
         let (root, rlo) = match string {
             Some(root) => (root, self.state.registers.status.rlo),
             // After SET or CLR, and with a constant, the statement runs because of the jump before it.
             None => match self
                 .guard(pc, matches!(op, Op::Transfer(..)))
-                .and_then(|(jump, rlo)| Some((self.string(areas, jump, &mut tree, 0)?, rlo)))
+                .and_then(|(jump, rlo)| Some((self.string(jump, &mut tree, 0)?, rlo)))
             {
                 Some(guarded) => guarded,
                 None => return,
             },
         };
-        // With several open values it is not known which is what.
-        let open = match tree.open {
-            0 => false,
-            1 if tree.value(root, true) != tree.value(root, false) => tree.value(root, true) == rlo,
-            _ => return,
-        };
-        if tree.value(root, open) == rlo {
-            tree.decisive(root, open, tested);
+        if let Some(decisive) = complete(&tree, root, rlo) {
+            *tested = decisive;
         }
+    }
+
+    /// What a copy of a bit copies.
+    fn copied_bit<A: Areas>(&mut self, areas: &A, index: u32, tested: &mut ArrayVec<Read, TESTED>) {
+        let CopySource::Operand(operand) = self.program.copies[index as usize].from else { return };
+        let Ok(spot) = self.spot(areas, operand) else { return };
+        if let Some(bit) = local(spot) {
+            let origin = self.observed.as_ref().map(|observed| observed.flow.of_local(bit, 1)).unwrap_or_default();
+            tested.extend(origin.reads().unwrap_or_default().iter().copied());
+        } else if let (Some(named), Ok(value)) = (self.named(spot), self.read_bit(areas, spot)) {
+            tested.push(Read::bit(named, value));
+        }
+    }
+
+    /// Of what the RLO before an instruction was made.
+    pub(super) fn origin_of_rlo(&self, pc: u32) -> Origin {
+        let mut tree = Tree::default();
+        let root = self.string(pc, &mut tree, 0);
+        let decisive = root.and_then(|root| complete(&tree, root, self.state.registers.status.rlo));
+        decisive.map_or_else(Origin::default, |reads| Origin::made_of(&reads))
     }
 
     /// The conditional jump over an instruction behind SET or CLR, or with a constant, and the RLO with which it was not taken.
@@ -212,58 +220,84 @@ impl Cpu {
         self.observed.as_ref().map_or(0, |observed| observed.flow.landed)
     }
 
+    fn contact(&self, at: u32) -> Option<Contact> {
+        self.observed.as_ref()?.contacts.at(at)
+    }
+
+    /// Whether a logic string begins with a bit operation: a first check, but not behind `O`, where it goes on.
+    fn begins_with(&self, at: u32, begin: u32) -> Option<bool> {
+        let mut before = (begin..at).rev().map(|at| self.program.code[at as usize]).skip_while(|op| leaves_rlo(*op));
+        Some(self.contact(at)?.is_first && before.next() != Some(Op::OrBeforeAnd))
+    }
+
     /// The tree of the logic string that ends before an instruction.
-    fn string<A: Areas>(&mut self, areas: &A, end: u32, tree: &mut Tree, depth: u8) -> Option<Index> {
-        let program = std::sync::Arc::clone(&self.program);
-        let block = program.block_at(end)?.start;
-        let mut start = end;
-        let mut last = end;
+    fn string(&self, end: u32, tree: &mut Tree, depth: u8) -> Option<Index> {
+        let program = &self.program;
+        // A string that a jump entered in its middle did not run as it stands.
+        let begin = program.block_at(end)?.start.max(self.landed());
+        let (mut start, mut last) = (end, end);
         let mut is_begun = false;
-        let mut depth_of_brackets = 0_i32;
-        while start > block && end - start < LONGEST {
-            match program.code[start as usize - 1] {
-                Op::CloseNest => {
-                    depth_of_brackets += 1;
-                    is_begun = true;
+        let mut brackets = 0_u32;
+        loop {
+            if start <= begin || end - start >= LONGEST {
+                return None;
+            }
+            start -= 1;
+            match program.code[start as usize] {
+                Op::CloseNest => brackets += 1,
+                Op::OpenNest(_) => {
+                    brackets = brackets.checked_sub(1)?;
+                    if brackets == 0 && self.begins_with(start, begin)? {
+                        break;
+                    }
                 }
-                Op::OpenNest(_) => depth_of_brackets -= 1,
                 Op::Logic(..)
                 | Op::LogicTimer(..)
                 | Op::LogicCounter(..)
                 | Op::LogicStatus(..)
                 | Op::OrBeforeAnd
                 | Op::Not
-                | Op::Edge(..)
-                | Op::Compare(..) => is_begun = true,
-                // These end a string; between its end and the instruction they are further outputs.
-                Op::Assign(_) | Op::Set(_) | Op::Reset(_) | Op::StartTimer(..) | Op::ResetTimer(_) if !is_begun => {
-                    last = start - 1;
+                | Op::Edge(..) => {
+                    if brackets == 0 && self.begins_with(start, begin)? {
+                        break;
+                    }
                 }
-                Op::Load(..) | Op::LoadConstant(_) | Op::Nothing | Op::Arithmetic(..) | Op::Save => {}
-                Op::SetRlo(_) if !is_begun => return None,
-                _ => break,
+                // It overwrites the RLO.
+                Op::Compare(..) => {
+                    if brackets == 0 {
+                        break;
+                    }
+                }
+                // These end a string; between its end and the instruction they are further outputs.
+                Op::Assign(_)
+                | Op::Set(_)
+                | Op::Reset(_)
+                | Op::StartTimer(..)
+                | Op::ResetTimer(_)
+                | Op::FreeTimer(_)
+                | Op::CountUp(_)
+                | Op::CountDown(_)
+                | Op::SetCounter(_)
+                | Op::ResetCounter(_)
+                | Op::FreeCounter(_)
+                    if !is_begun =>
+                {
+                    last = start;
+                    continue;
+                }
+                op if leaves_rlo(op) => continue,
+                _ => return None,
             }
-            start -= 1;
+            is_begun = true;
         }
-        // A string that a jump entered in its middle did not run as it stands.
-        if depth_of_brackets != 0 || !is_begun || start < self.landed() {
-            return None;
-        }
-        self.build(areas, (start, last, end), tree, depth)
+        self.build((start, last), tree, depth)
     }
 
-    fn build<A: Areas>(
-        &mut self,
-        areas: &A,
-        (start, last, end): (u32, u32, u32),
-        tree: &mut Tree,
-        depth: u8,
-    ) -> Option<Index> {
-        let program = std::sync::Arc::clone(&self.program);
+    fn build(&self, (start, last): (u32, u32), tree: &mut Tree, depth: u8) -> Option<Index> {
         let mut nests: ArrayVec<(Term, Logic), 8> = ArrayVec::new();
         let mut state = Term::default();
         for at in start..last {
-            let leaf = match program.code[at as usize] {
+            let (logic, leaf) = match self.program.code[at as usize] {
                 Op::OpenNest(logic) => {
                     nests.try_push((state, logic)).ok()?;
                     state = Term::default();
@@ -286,199 +320,154 @@ impl Cpu {
                     state = Term { before: None, term: Some(tree.add(Node::Not(x))?) };
                     continue;
                 }
-                Op::Edge(_, marker) => {
+                Op::Edge(is_positive, _) => {
                     let inner = tree.result(state)?;
-                    let before = self.leaf(areas, marker, (at, end));
-                    let (marker, value) = before.unwrap_or((None, false));
-                    state = Term { before: None, term: Some(tree.add(Node::Edge(marker, value, inner))?) };
+                    let Contact { named, value, marker, .. } = self.contact(at)?;
+                    // Where there was no edge although its logic is as it must be, the marker decided.
+                    let named = named.filter(|_| !value && tree.value(inner) == is_positive);
+                    state = Term { before: None, term: Some(tree.add(Node::Edge(value, named, marker, inner))?) };
                     continue;
                 }
                 Op::Compare(..) => {
-                    let node = self.compared(at, tree);
+                    let node = self.made(at, tree)?;
                     state = Term { before: None, term: Some(tree.add(node)?) };
                     continue;
                 }
-                Op::Logic(logic, operand) => {
-                    // Someone may have written it since it was tested.
-                    let is_written = (last..end).any(|at| {
-                        matches!(program.code[at as usize], Op::Assign(to) | Op::Set(to) | Op::Reset(to) if to == operand)
-                    });
-                    if is_written {
-                        return None;
-                    }
-                    (logic, self.operand(areas, operand, (at, end), tree, depth)?)
+                Op::Logic(logic, operand) => (logic, self.operand(operand, at, tree, depth)?),
+                Op::LogicTimer(logic, _) | Op::LogicCounter(logic, _) => {
+                    let Contact { named, value, .. } = self.contact(at)?;
+                    (logic, tree.add(Node::Leaf(named?, value))?)
                 }
-                Op::LogicTimer(logic, number) => {
-                    let number = self.fixed(areas, number, (at, end))?;
-                    let status = self.state.timers.get(usize::from(number))?.status(self.work.now);
-                    (logic, tree.add(Node::Leaf(Some(Named::Timer(number)), status))?)
+                Op::LogicStatus(logic, _) => {
+                    let node = self.made(at, tree)?;
+                    (logic, tree.add(node)?)
                 }
-                Op::LogicCounter(logic, number) => {
-                    let number = self.fixed(areas, number, (at, end))?;
-                    let status = self.state.counters.get(usize::from(number))?.value != 0;
-                    (logic, tree.add(Node::Leaf(Some(Named::Counter(number)), status))?)
-                }
-                Op::LogicStatus(logic, _) => (logic, tree.add(Node::Open)?),
                 _ => continue,
             };
-            state = tree.combine(state, leaf.0, leaf.1)?;
+            state = tree.combine(state, logic, leaf)?;
         }
         if nests.is_empty() { tree.result(state) } else { None }
     }
 
-    /// A comparison, with its operands if they are known.
-    fn compared(&self, at: u32, tree: &mut Tree) -> Node {
-        let flow = self.observed.as_ref().map(|observed| &observed.flow);
-        let Some((origin, result)) = flow.and_then(|flow| flow.comparison(at)) else { return Node::Open };
-        let (Some(reads), Ok(number)) = (origin.reads(), Index::try_from(tree.compared.len())) else {
-            return Node::Open;
+    /// A comparison, a status bit or a local bit: what it was made of, or else itself.
+    fn made(&self, at: u32, tree: &mut Tree) -> Option<Node> {
+        let value = self.contact(at)?.value;
+        let origin = self.observed.as_ref()?.flow.remembered(at);
+        let (Some(reads), Ok(number)) = (origin.and_then(Origin::reads), Index::try_from(tree.made.len())) else {
+            return Some(Node::Leaf(Named::Operation(at), value));
         };
-        tree.compared.push(reads.iter().copied().collect());
-        Node::Compared(number, result)
+        tree.made.push(reads.iter().copied().collect());
+        Some(Node::Made(number, value))
     }
 
     /// A leaf, or for a local bit the string that wrote it.
-    fn operand<A: Areas>(
-        &mut self,
-        areas: &A,
-        operand: Operand,
-        (at, end): (u32, u32),
-        tree: &mut Tree,
-        depth: u8,
-    ) -> Option<Index> {
-        if let Operand::Direct(Space::Local, _) = operand {
-            let spot = self.spot(areas, operand).ok()?;
-            let value = self.read_bit(areas, spot).ok()?;
-            let nodes = tree.nodes.len();
-            let open = tree.open;
-            if depth < DEEPEST
-                && let Some(writer) = self.writer(operand, at)
-                && let Some(root) = self.string(areas, writer, tree, depth + 1)
-                && tree.open == open
-                && tree.value(root, false) == value
-            {
-                return Some(root);
-            }
-            tree.nodes.truncate(nodes);
-            tree.open = open;
-            return tree.add(Node::Leaf(None, value));
+    fn operand(&self, operand: Operand, at: u32, tree: &mut Tree, depth: u8) -> Option<Index> {
+        let Contact { named, value, .. } = self.contact(at)?;
+        if let Some(named) = named {
+            return tree.add(Node::Leaf(named, value));
         }
-        let (named, value) = self.leaf(areas, operand, (at, end))?;
-        tree.add(Node::Leaf(named, value))
+        let (nodes, made) = (tree.nodes.len(), tree.made.len());
+        if depth < DEEPEST
+            && let Operand::Direct(Space::Local, bit) = operand
+            && let Some(writer) = self.writer(bit, at)
+            && let Some(root) = self.string(writer, tree, depth + 1)
+            && tree.value(root) == value
+        {
+            return Some(root);
+        }
+        tree.nodes.truncate(nodes);
+        tree.made.truncate(made);
+        let node = self.made(at, tree)?;
+        tree.add(node)
     }
 
-    /// The statement before an instruction that wrote a local bit, if nothing between them can jump over it.
-    fn writer(&self, operand: Operand, before: u32) -> Option<u32> {
-        let block = self.program.block_at(before)?.start;
-        for at in (block..before).rev().take(LONGEST as usize) {
+    /// The statement before an instruction that wrote a local bit, if nothing between them can jump over it or write it otherwise.
+    fn writer(&self, bit: u32, before: u32) -> Option<u32> {
+        let begin = self.program.block_at(before)?.start.max(self.landed());
+        for at in (begin..before).rev().take(LONGEST as usize) {
             match self.program.code[at as usize] {
-                Op::Assign(to) if to == operand => return Some(at),
-                Op::Set(to) | Op::Reset(to) if to == operand => return None,
-                Op::Jump(..) | Op::JumpList(..) | Op::End(_) => return None,
+                Op::Assign(Operand::Direct(Space::Local, to)) if to == bit => return Some(at),
+                Op::Set(Operand::Direct(Space::Local, to)) | Op::Reset(Operand::Direct(Space::Local, to))
+                    if to == bit =>
+                {
+                    return None;
+                }
+                // Another local bit.
+                Op::Assign(Operand::Direct(..)) | Op::Set(Operand::Direct(..)) | Op::Reset(Operand::Direct(..)) => {}
+                Op::Assign(to) | Op::Set(to) | Op::Reset(to) | Op::Edge(_, to) | Op::Transfer(_, to)
+                    if may_be_local(to) =>
+                {
+                    return None;
+                }
+                Op::Jump(..) | Op::JumpList(..) | Op::End(_) | Op::Copy(_) | Op::Pointer(_) | Op::Call(_) => {
+                    return None;
+                }
+                Op::CallPlain(..) | Op::CallNumber(..) | Op::OperandFromRegister(..) => return None,
                 _ => {}
             }
         }
         None
     }
+}
 
-    /// The name and the present value of an operand that was tested at an instruction; `None` if registers that it needs have changed since.
-    fn leaf<A: Areas>(&mut self, areas: &A, operand: Operand, (at, end): (u32, u32)) -> Option<(Option<Named>, bool)> {
-        let needs_db = matches!(operand, Operand::Direct(Space::Data, _) | Operand::Register(..));
-        let needs_registers = matches!(operand, Operand::Register(..) | Operand::Own(_) | Operand::Indirect(..));
-        let mut db = None;
-        for later in at..end {
-            let op = self.program.code[later as usize];
-            if later > at && needs_db && opens_db(op) {
-                db = Some(self.opened_before(areas, at)?);
-            }
-            if later > at && needs_registers && moves_registers(op) {
-                return None;
-            }
-        }
-        let before = self.state.registers.db;
-        if let Some(db) = db {
-            self.state.registers.db = db;
-        }
-        let spot = self.spot(areas, operand);
-        self.state.registers.db = before;
-        let spot = spot.ok()?;
-        Some((self.named(spot), self.read_bit(areas, spot).ok()?))
+/// All operands that decide the result of a tree, if it is the RLO and there is room for them.
+fn complete(tree: &Tree, root: Index, rlo: bool) -> Option<ArrayVec<Read, TESTED>> {
+    if tree.value(root) != rlo {
+        return None;
     }
+    let mut found = Decisive::default();
+    tree.decisive(root, &mut found);
+    (!found.is_cut).then_some(found.reads)
+}
 
-    /// The data block that was open at an instruction, if a statement before it says so.
-    fn opened_before<A: Areas>(&self, areas: &A, at: u32) -> Option<OpenBlock> {
-        let block = self.program.block_at(at)?.start;
-        for earlier in (block..at).rev().take(LONGEST as usize) {
-            match self.program.code[earlier as usize] {
-                Op::OpenDb(Number::Direct(number)) => return areas.block(number),
-                op => match operand_of(op) {
-                    Some(Operand::Block(number, _)) => return areas.block(number),
-                    _ if opens_db(op) || matches!(op, Op::Jump(..) | Op::JumpList(..)) => return None,
-                    _ => {}
-                },
-            }
-        }
-        None
-    }
-
-    /// The number of a timer or counter that was tested at an instruction.
-    fn fixed<A: Areas>(&mut self, areas: &A, number: Number, (at, end): (u32, u32)) -> Option<u16> {
-        if let Some(number) = direct(number) {
-            return Some(number);
-        }
-        let moves = (at + 1..end).any(|later| {
-            let op = self.program.code[later as usize];
-            opens_db(op) || moves_registers(op)
-        });
-        if moves { None } else { self.number(areas, number).ok() }
+/// Whether a write to an operand can reach the local data.
+fn may_be_local(operand: Operand) -> bool {
+    match operand {
+        Operand::Direct(space, _) | Operand::Indirect(space, ..) => matches!(space, Space::Local | Space::Caller),
+        Operand::Register(space, ..) => space.is_none_or(|space| matches!(space, Space::Local | Space::Caller)),
+        Operand::Parameter(_) | Operand::Element(..) | Operand::Through(..) => true,
+        Operand::Block(..) | Operand::Fixed(..) | Operand::Own(_) => false,
     }
 }
 
-/// The operand of an instruction that has one.
-fn operand_of(op: Op) -> Option<Operand> {
-    match op {
-        Op::Logic(_, operand)
-        | Op::Assign(operand)
-        | Op::Set(operand)
-        | Op::Reset(operand)
-        | Op::Edge(_, operand)
-        | Op::Load(_, operand)
-        | Op::Transfer(_, operand) => Some(operand),
-        _ => None,
-    }
-}
-
-/// Whether an instruction can change the DB register.
-fn opens_db(op: Op) -> bool {
-    match op {
-        Op::OpenDb(_) | Op::SwapDb | Op::Copy(_) | Op::Pointer(_) | Op::Call(_) => true,
-        op => matches!(operand_of(op), Some(Operand::Block(..) | Operand::Element(..) | Operand::Through(..))),
-    }
-}
-
-/// Whether an instruction can change the address registers or DI.
-fn moves_registers(op: Op) -> bool {
+/// Whether an instruction neither reads nor changes the logic string.
+fn leaves_rlo(op: Op) -> bool {
     matches!(
         op,
-        Op::RegisterFromAccu(_)
+        Op::Nothing
+            | Op::Load(..)
+            | Op::LoadConstant(_)
+            | Op::LoadStatus
+            | Op::LoadData(_)
+            | Op::LoadTimer(..)
+            | Op::LoadCounter(..)
+            | Op::LoadParameterAddress(_)
+            | Op::Transfer(..)
+            | Op::Arithmetic(..)
+            | Op::AddWord(_)
+            | Op::AddDouble(_)
+            | Op::Convert(_)
+            | Op::WordLogic(..)
+            | Op::WordLogicConstant(..)
+            | Op::Shift(_)
+            | Op::ShiftBy(..)
+            | Op::Accumulators(_)
+            | Op::Increment(_)
+            | Op::Decrement(_)
+            | Op::Save
+            | Op::RegisterFromAccu(_)
             | Op::RegisterFromConstant(..)
             | Op::RegisterFromOperand(..)
             | Op::RegisterFromParameterAddress(..)
             | Op::RegisterFromOther
+            | Op::AccuFromRegister(_)
+            | Op::OperandFromRegister(..)
             | Op::OtherFromRegister
             | Op::SwapRegisters
             | Op::AddRegister(_)
             | Op::AddRegisterConstant(..)
+            | Op::OpenDb(_)
             | Op::OpenDi(_)
             | Op::SwapDb
-            | Op::Call(_)
     )
-}
-
-/// The number of a timer or counter, if it does not depend on memory.
-fn direct(number: Number) -> Option<u16> {
-    match number {
-        Number::Direct(number) => Some(number),
-        Number::At(..) | Number::Parameter(_) | Number::Own(_) => None,
-    }
 }

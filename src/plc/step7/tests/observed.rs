@@ -6,7 +6,7 @@ use proptest::prelude::{Just, Strategy, prop_assert, prop_assert_eq, prop_oneof,
 
 use super::{Plc, SECOND, ob1};
 use crate::plc::step7::Coverage;
-use crate::plc::step7::engine::{Area, Cpu, CpuOptions, Named, OwnMemory};
+use crate::plc::step7::engine::{Area, Cpu, CpuOptions, Named, OwnMemory, text_of};
 
 const fn i(bit: u32) -> Named {
     Named::Area(Area::Inputs, bit)
@@ -55,7 +55,7 @@ type Case<'a> = (&'a str, u8, &'a [(Named, bool)]);
 
 #[test]
 fn the_decisive_operands_are_named() {
-    let cases: [Case<'_>; 10] = [
+    let cases: [Case<'_>; 18] = [
         ("A I 0.0; AN I 0.1; = Q 0.0;", 0b001, &[(i(0), true), (i(1), false)]),
         ("O I 0.0; O I 0.1; = Q 0.0;", 0b010, &[(i(1), true)]),
         ("A I 0.0; A I 0.1; O; A I 0.2; = Q 0.0;", 0b110, &[(i(2), true)]),
@@ -66,8 +66,36 @@ fn the_decisive_operands_are_named() {
         ("A I 0.0; FP M 20.0; = Q 0.0;", 1, &[(i(0), true)]),
         // A comparison names what it compared, and the contact beside it.
         ("L MW 30; L 5; <I; A I 0.0; = Q 0.0;", 1, &[(m(30, 0), false), (i(0), true)]),
-        // Of a status bit it is not known.
-        ("L MW 30; L 5; -I; A <0; A I 0.0; = Q 0.0;", 1, &[(i(0), true)]),
+        // A status bit names what its operation calculated with.
+        ("L MW 30; L 5; -I; A <0; A I 0.0; = Q 0.0;", 1, &[(m(30, 0), false), (i(0), true)]),
+        ("L MW 30; L 5; -I; T MW 32; AN OV; A I 0.0; = Q 0.0;", 1, &[(m(30, 0), false), (i(0), true)]),
+        ("L MW 30; SLW 1; A ==0; = Q 0.0;", 0, &[(m(30, 0), false)]),
+        // BR names what was saved.
+        ("A I 0.1; SAVE; A BR; A I 0.0; = Q 0.0;", 0b11, &[(i(1), true), (i(0), true)]),
+        // Operations on accumulators do not end a logic string.
+        ("A I 0.0; L MW 30; T MW 32; A I 0.1; = Q 0.0;", 0b11, &[(i(0), true), (i(1), true)]),
+        // Without an edge: the logic, or the marker where the logic is as it must be.
+        ("SET; = M 20.0; A I 0.0; FP M 20.0; NOT; = Q 0.0;", 1, &[(m(20, 0), true), (i(0), true)]),
+        ("A I 0.0; FP M 20.0; NOT; = Q 0.0;", 0, &[(i(0), false)]),
+        // More contacts than operands of a value.
+        (
+            "A I 0.0; A I 0.1; A I 0.2; A I 0.3; A I 0.4; A I 0.5; A I 0.6; A I 0.7; AN M 1.0; AN M 1.1; = Q 0.0;",
+            0xFF,
+            &[
+                (i(0), true),
+                (i(1), true),
+                (i(2), true),
+                (i(3), true),
+                (i(4), true),
+                (i(5), true),
+                (i(6), true),
+                (i(7), true),
+                (m(1, 0), false),
+                (m(1, 1), false),
+            ],
+        ),
+        // The value is that of the test, also where the bit was written since.
+        ("O I 0.0; O M 1.0; = M 1.0; = Q 0.0;", 1, &[(i(0), true)]),
         // LAD branches through a local bit.
         (
             "A I 0.0; AN I 0.1; = L 40.0; A L 40.0; BLD 102; A I 0.2; = Q 0.0;",
@@ -161,11 +189,13 @@ fn words_are_followed_through_parameters() {
     );
 }
 
-/// A jump into the middle: the contact before the label was not tested.
+/// A jump into the middle: the contact before the label was not tested. What the RLO was before the jump counts, unless the string begins there.
 #[test]
-fn a_string_that_was_entered_in_its_middle_names_nothing() {
-    let mut plc = plc("SET; JU a; A I 0.0; a: A I 0.1; = Q 0.0;", 0b10);
-    assert_eq!(seen(&mut plc), [(q(0), vec![])]);
+fn a_string_that_was_entered_in_its_middle_names_what_ran() {
+    let mut first = plc("SET; JU a; A I 0.0; a: A I 0.1; = Q 0.0;", 0b10);
+    assert_eq!(seen(&mut first), [(q(0), vec![(i(1), true)])]);
+    let mut second = plc("A I 0.2; JU a; A I 0.0; a: A I 0.1; = Q 0.0;", 0b110);
+    assert_eq!(seen(&mut second), [(q(0), vec![])]);
     let jump = "A I 0.1; JC b; A I 0.0; JCN a; b: L 5; T MW 40; a: NOP 0;";
     let mut plc = self::plc(jump, 0b10);
     assert_eq!(words(&mut plc), [(m(40, 0), 5, vec![])]);
@@ -192,11 +222,60 @@ fn the_contact_that_opened_is_named() {
     assert_eq!(seen(&mut plc), [], "nothing changed");
 }
 
-/// After the first output the flag is no longer what was tested.
+/// An operand without a name that decides is named by its operation: OS, a status word that was loaded, a local bit behind S.
 #[test]
-fn an_operand_that_was_written_since_is_not_named() {
-    let mut plc = plc("O I 0.0; O M 1.0; = M 1.0; = Q 0.0;", 1);
-    assert_eq!(seen(&mut plc), [(m(1, 0), vec![(i(0), true)]), (q(0), vec![])]);
+fn an_operation_whose_operand_is_unknown_is_named() {
+    for (statements, text, value) in [
+        ("AN OS; A I 0.0; = Q 0.0;", "AN OS", false),
+        ("L STW; L 5; <I; A I 0.0; = Q 0.0;", "<I", true),
+        ("A I 0.0; S L 40.0; A L 40.0; A I 0.0; = Q 0.0;", "A L 40.0", true),
+    ] {
+        let mut plc = plc(statements, 1);
+        let all = seen(&mut plc);
+        let (_, tested) = all.iter().find(|(place, _)| *place == q(0)).unwrap();
+        let [(Named::Operation(pc), found), (input, true)] = tested[..] else { panic!("{statements}: {tested:?}") };
+        let op = plc.cpu.program.code[pc as usize];
+        assert_eq!((text_of(op).as_deref(), found, input), (Some(text), value, i(0)), "{statements}");
+    }
+}
+
+/// A bit of a data block is copied for an FC, and tested there.
+#[test]
+fn bits_are_followed_through_parameters_of_functions() {
+    let text = "DATA_BLOCK DB 10\nSTRUCT\na : BOOL := TRUE;\nb : BOOL;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n\
+        FUNCTION FC 1 : VOID\nVAR_INPUT\nx : BOOL;\nEND_VAR\nVAR_OUTPUT\ny : BOOL;\nEND_VAR\nBEGIN\nA #x; A I 0.0; = #y;\nEND_FUNCTION\n\
+        ORGANIZATION_BLOCK OB 1\nBEGIN\nCALL FC 1 ( x := DB10.a, y := Q 0.0 );\nEND_ORGANIZATION_BLOCK\n";
+    let mut plc = Plc::new(text);
+    plc.cpu.observe();
+    plc.memory.inputs[0] = 1;
+    assert_eq!(seen(&mut plc), [(q(0), vec![(Named::Block(10, 0), true), (i(0), true)])]);
+}
+
+/// In a zone of the MCR that is off, 0 is written whatever the logic says.
+#[test]
+fn the_logic_is_no_reason_in_a_zone_of_the_mcr_that_is_off() {
+    let mut plc = plc("MCRA; CLR; MCR( ; A I 0.0; = Q 0.0; )MCR; MCRD;", 1);
+    plc.memory.outputs[0] = 1;
+    assert_eq!(seen(&mut plc), [(q(0), vec![])]);
+}
+
+/// BLKMOV, FILL, and a function of a library: what they read.
+#[test]
+fn built_in_blocks_name_what_they_read() {
+    let mut plc = plc(
+        "CALL SFC 20 ( SRCBLK := P#M 30.0 BYTE 4, RET_VAL := MW 0, DSTBLK := P#DB10.DBX 0.0 BYTE 4 );\
+         CALL SFC 21 ( BVAL := MB 31, RET_VAL := MW 0, BLK := P#M 40.0 BYTE 2 );\
+         CALL SFC 24 ( DB_NUMBER := MW 30, RET_VAL := MW 0, DB_LENGTH := MW 50, WRITE_PROT := M 2.0 );",
+        0,
+    );
+    plc.memory.flags[31] = 10;
+    let mw = |byte| m(byte, 0);
+    let db = |byte: u32| Named::Block(10, byte * 8);
+    // FILL repeats a byte, so a word of its target has no word of its source.
+    assert_eq!(
+        words(&mut plc),
+        [(db(0), 10, vec![(mw(30), 10)]), (mw(40), 0x0A0A, vec![]), (mw(50), 32, vec![(mw(30), 10)]),]
+    );
 }
 
 #[test]
