@@ -9,6 +9,7 @@ use super::basic_program::by_name;
 use super::compile::{Settings, Source, SourceKind};
 use super::instruction::{BlockKind, BlockName};
 use super::text::address::{Address, parse};
+use super::text::mnemonics::Language;
 use super::text::symbols::SymbolForm;
 
 /// What `plc.toml` sets.
@@ -20,6 +21,8 @@ pub struct PlcToml {
     pub cyclic: [Option<Time>; 9],
     /// How the sources are compiled.
     pub settings: Settings,
+    /// The files that it names, and where.
+    named_files: Vec<(String, Place)>,
 }
 
 /// The text of a program in a folder.
@@ -33,6 +36,9 @@ pub struct Folder {
 
 /// The keys of `[areas]`, in the order of [`Settings::least`], with their limits.
 const AREAS: [(&str, i64); 5] = [("I", 65_536), ("Q", 65_536), ("M", 65_536), ("T", 65_536), ("C", 65_536)];
+
+/// The languages of the operations.
+const LANGUAGES: &[(&str, Language)] = &[("German", Language::German), ("international", Language::International)];
 
 /// The keys of the periods of OB30 to OB38.
 const CYCLIC: [&str; 9] = ["ob30", "ob31", "ob32", "ob33", "ob34", "ob35", "ob36", "ob37", "ob38"];
@@ -76,6 +82,13 @@ impl Folder {
         } else {
             PlcToml::default()
         };
+        for (file, place) in &toml.named_files {
+            let names = sources.iter().filter_map(|source| Path::new(&source.name).file_name()?.to_str());
+            if !names.clone().any(|name| name == file) {
+                let cure = crate::source::did_you_mean(file, names, "write the name of a source of this folder");
+                return Err(place.problem(format!("expected the name of a source, found `{file}`"), cure));
+            }
+        }
         Ok(Self { sources, toml })
     }
 }
@@ -97,6 +110,15 @@ impl PlcToml {
         }
         if let Some(node) = table.take("missing") {
             toml.settings.ignores_missing = node.one_of(&[("refuse", false), ("ignore", true)])?;
+        }
+        if let Some(node) = table.take("language") {
+            toml.settings.language = Some(node.one_of(LANGUAGES)?);
+        }
+        if let Some(node) = table.take("languages") {
+            for (file, place, node) in node.into_table("a table of files")?.take_rest() {
+                toml.settings.languages.insert(file.clone(), node.one_of(LANGUAGES)?);
+                toml.named_files.push((file, place));
+            }
         }
         if let Some(node) = table.take("blocks") {
             toml.blocks(node.into_table("a table of blocks")?)?;
@@ -128,7 +150,8 @@ impl PlcToml {
         }
         for (key, place, node) in table.take_rest() {
             let Some(name) = block(&key).filter(|name| name.kind == BlockKind::Fc) else {
-                return Err(place.problem(format!("expected `ours` or a function, as `FC210`, found `{key}`"), ""));
+                let what = format!("expected `ours` or a function, as `FC210`, found `{key}`");
+                return Err(place.problem(what, "write `ours = [\"FC10\"]`, or `FC210 = \"SCALE\"`"));
             };
             let Value::Text(library) = &node.value else {
                 return Err(node.expected("the name of a library function", "write FC210 = \"SCALE\""));

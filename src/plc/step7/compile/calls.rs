@@ -17,6 +17,7 @@ use crate::plc::step7::text::syntax::{Operand, Parameter, Statement};
 use crate::plc::step7::text::types::{Field, Section, Type, value_of};
 
 use super::declare::Interface;
+use super::parameters::{check_names, find, pointed, same_shape};
 use super::unit::{AddressOf, Done, Kind, Named, Unit};
 
 impl Unit<'_, '_> {
@@ -63,7 +64,9 @@ impl Unit<'_, '_> {
             Some(Named::Block(name)) => match name.kind {
                 BlockKind::Fc | BlockKind::Sfc => {
                     if statement.instance != Operand::None {
-                        return Err(Fault::new(at, "a function has no instance data block", "remove it"));
+                        let what =
+                            format!("expected no instance data block, found {} behind {name}", statement.instance);
+                        return Err(Fault::new(at, what, "only function blocks have one: remove it"));
                     }
                     self.call_function(name, &statement.parameters, at)
                 }
@@ -71,14 +74,19 @@ impl Unit<'_, '_> {
                     let Some(Named::Block(BlockName { kind: BlockKind::Db, number })) =
                         self.named(&statement.instance, at)?
                     else {
-                        return Err(Fault::new(at, "expected an instance data block", "write `CALL FB 10, DB 20`"));
+                        let what =
+                            format!("expected an instance data block behind {name}, found {}", statement.instance);
+                        return Err(Fault::new(at, what, format!("write `CALL {name} , DB 20`")));
                     };
                     self.call_with_block(name, number, &statement.parameters, at)
                 }
-                _ => Err(Fault::new(at, format!("{name} cannot be called"), "call an FC, FB, SFC or SFB")),
+                _ => Err(Fault::new(at, format!("expected an FC, FB, SFC or SFB, found {name}"), "call one of these")),
             },
             Some(Named::Instance(name, bit)) => self.call_within(name, bit, &statement.parameters, at),
-            _ => Err(Fault::new(at, "expected a block or a multi-instance", "write `CALL FC 10` or `CALL #instance`")),
+            _ => {
+                let what = format!("expected a block or a multi-instance, found {}", statement.operand);
+                Err(Fault::new(at, what, "write `CALL FC 10` or `CALL #instance`"))
+            }
         }
     }
 
@@ -96,20 +104,38 @@ impl Unit<'_, '_> {
         let target = self.target(name, at)?;
         let mut sources = Vec::new();
         let mut after = Vec::new();
-        check_names(&interface, parameters, name)?;
+        let mut faults = check_names(&interface, parameters, name);
+        let mut missing = Vec::new();
         for field in &interface.layout.fields {
-            let Some(parameter) = find(parameters, field) else {
-                let what = format!("the parameter `{}` of {name} is missing", field.name);
-                return Err(Fault::new(at, what, "a call gives all parameters of a function"));
-            };
-            sources.push(self.function_parameter(field, parameter, &mut after)?);
+            match find(parameters, field).map(|parameter| self.function_parameter(field, parameter, &mut after)) {
+                Some(Ok(source)) => sources.push(source),
+                Some(Err(fault)) => faults.push(fault),
+                None => missing.push(format!("`{}`", field.name)),
+            }
         }
+        if !missing.is_empty() {
+            let what = match &*missing {
+                [one] => format!("the parameter {one} of {name} is missing"),
+                several => format!("the parameters {} of {name} are missing", several.join(", ")),
+            };
+            faults.push(Fault::new(at, what, "a call gives all parameters of a function"));
+        }
+        self.all_or_none(faults)?;
         let first = u32::try_from(self.tables.parameters.len()).unwrap_or(u32::MAX);
         let count = u16::try_from(sources.len()).unwrap_or(u16::MAX);
         self.tables.parameters.extend(sources);
         self.emit_call(CallSite { target, instance: Instance::None, first, count });
         self.emit_copies(after);
         Ok(())
+    }
+
+    /// Reports all faults of a call together.
+    fn all_or_none(&mut self, mut faults: Vec<Fault>) -> Done {
+        if faults.is_empty() {
+            return Ok(());
+        }
+        self.further.extend(faults.drain(1..));
+        faults.pop().map_or(Ok(()), Err)
     }
 
     fn emit_call(&mut self, call: CallSite) {
@@ -205,13 +231,15 @@ impl Unit<'_, '_> {
             }
             _ => return Ok(None),
         };
-        let expected =
-            || Fault::new(at, format!("expected a {} for `{}`", field.ty.name(), field.name), "check the type");
+        let expected = || {
+            let what = format!("expected a {} for `{}`, found {operand}", field.ty.name(), field.name);
+            Fault::new(at, what, "write a constant of this type, or an address")
+        };
         if field.section != Section::Input {
             return Err(Fault::new(
                 at,
-                format!("`{}` needs an operand that can be written", field.name),
-                "give an address",
+                format!("expected an operand that can be written for `{}`, found {operand}", field.name),
+                "write an address or a variable",
             ));
         }
         value.map(Some).ok_or_else(expected)
@@ -242,7 +270,16 @@ impl Unit<'_, '_> {
             | (Type::BlockFc, Some(Named::Block(BlockName { kind: BlockKind::Fc, number }))) => {
                 Ok(Number::Direct(number))
             }
-            _ => Err(Fault::new(at, format!("expected an operand of the type {}", ty.name()), "check the parameter")),
+            _ => {
+                let cure = match ty {
+                    Type::Timer => "write `T 5`",
+                    Type::Counter => "write `C 5`",
+                    Type::BlockDb => "write `DB 10`",
+                    Type::BlockFb => "write `FB 10`",
+                    _ => "write `FC 10`",
+                };
+                Err(Fault::new(at, format!("expected an operand of the type {}, found {operand}", ty.name()), cure))
+            }
         }
     }
 
@@ -265,7 +302,8 @@ impl Unit<'_, '_> {
         let is_any = *ty == Type::Any;
         if let Operand::Constant(Constant::Pointer { block, pointer, any }) = *operand {
             if ty.is_complex() {
-                return Err(Fault::new(at, format!("expected a variable of the type {}", ty.name()), ""));
+                let what = format!("expected a variable of the type {}, found {operand}", ty.name());
+                return Err(Fault::new(at, what, "pass a variable of this type, not a pointer"));
             }
             let any = is_any.then(|| any.unwrap_or((0x02, 1)));
             // Local data of this block are those of the caller for the called one.
@@ -278,7 +316,8 @@ impl Unit<'_, '_> {
             return Ok(());
         }
         let wrong = |found: &str| {
-            Fault::new(at, format!("expected an operand for a parameter of the type {}, found {found}", ty.name()), "")
+            let what = format!("expected an operand for a parameter of the type {}, found {found}", ty.name());
+            Fault::new(at, what, "write an address or a variable")
         };
         let numbered = |kind: u8, number: Number| match number {
             Number::Direct(number) => Ok((Pointed::Constant(0, u32::from(number)), (kind, 1))),
@@ -319,7 +358,7 @@ impl Unit<'_, '_> {
                 let bytes = self.known.data.get(&number).map_or(0, |data| data.bytes.len());
                 (Pointed::Constant(number, code(Space::Data) << 24), (0x02, u16::try_from(bytes).unwrap_or(u16::MAX)))
             }
-            _ => return Err(wrong("a constant")),
+            _ => return Err(wrong(&operand.to_string())),
         };
         self.emit_pointer(MakePointer { to, pointed, any: is_any.then_some((kind, count)) });
         Ok(())
@@ -330,10 +369,17 @@ impl Unit<'_, '_> {
         let Some(interface) = self.known_interface(name, at)? else { return Ok(()) };
         if let Some(data) = self.known.data.get(&number)
             && data.instance_of != Some(name)
-            && data.bytes.len() < interface.layout.image.len()
         {
-            let what = format!("DB{number} is not an instance of {name}: it is too short");
-            return Err(Fault::new(at, what, format!("declare it as `DATA_BLOCK DB {number} {name}`")));
+            let (has, needs) = (data.bytes.len(), interface.layout.image.len());
+            let found = match data.instance_of {
+                Some(other) => format!("which is an instance of {other}"),
+                None if has < needs => format!("a data block of its own with {has} bytes, where {name} needs {needs}"),
+                None => String::new(),
+            };
+            if !found.is_empty() {
+                let what = format!("expected an instance of {name}, found DB{number}, {found}");
+                return Err(Fault::new(at, what, format!("declare an instance: `DATA_BLOCK DB {number} {name}`")));
+            }
         }
         self.call_block(name, &interface, Instance::Block(number), parameters, at)
     }
@@ -355,7 +401,7 @@ impl Unit<'_, '_> {
         at: At,
     ) -> Done {
         let target = self.target(name, at)?;
-        check_names(interface, parameters, name)?;
+        let mut faults = check_names(interface, parameters, name);
         let own = |bit: u32| match instance {
             Instance::Block(number) => Place::Fixed(number, bit),
             Instance::Within(start) => Place::Own(start + bit),
@@ -363,10 +409,11 @@ impl Unit<'_, '_> {
         };
         let mut after = Vec::new();
         for field in &interface.layout.fields {
-            if let Some(parameter) = find(parameters, field) {
-                self.block_parameter(field, parameter, own(field.bit), &mut after)?;
-            }
+            let done = find(parameters, field)
+                .map_or(Ok(()), |parameter| self.block_parameter(field, parameter, own(field.bit), &mut after));
+            faults.extend(done.err());
         }
+        self.all_or_none(faults)?;
         self.emit_call(CallSite { target, instance, first: 0, count: 0 });
         self.emit_copies(after);
         Ok(())
@@ -392,14 +439,14 @@ impl Unit<'_, '_> {
             let wrong = |found: &str| {
                 let what =
                     format!("expected a variable of the type {} for `{}`, found {found}", field.ty.name(), field.name);
-                Fault::new(at, what, "check the types")
+                Fault::new(at, what, "pass a variable of this type")
             };
             match self.named(&parameter.value, at)? {
                 Some(Named::Variable(place, Kind::Typed(ty))) if same_shape(&field.ty, &ty) => {
                     (place, field.ty.bits().min(ty.bits()))
                 }
                 Some(Named::Variable(_, kind)) => return Err(wrong(&kind.name())),
-                _ => return Err(wrong("another operand")),
+                _ => return Err(wrong(&parameter.value.to_string())),
             }
         };
         if field.section != Section::Output {
@@ -410,48 +457,4 @@ impl Unit<'_, '_> {
         }
         Ok(())
     }
-}
-
-/// To what an operand points, if its address is known.
-fn pointed(place: Place) -> Option<Pointed> {
-    Some(match place {
-        Place::Direct(Space::Local, bit) => Pointed::Local(bit),
-        Place::Direct(space, bit) => Pointed::Constant(0, code(space) << 24 | bit),
-        Place::Block(number, bit) | Place::Fixed(number, bit) => {
-            Pointed::Constant(number, code(Space::Data) << 24 | bit)
-        }
-        Place::Own(bit) => Pointed::Own(bit),
-        Place::Element(index, offset) => Pointed::Element(index, offset),
-        Place::Through(at, offset) => Pointed::Through(at, offset),
-        Place::Parameter(index) => Pointed::Parameter(index),
-        Place::Indirect(..) | Place::Register(..) => return None,
-    })
-}
-
-/// Whether a variable of one type can be passed for a parameter of another: texts of any length, all others of the same size.
-fn same_shape(wanted: &Type, found: &Type) -> bool {
-    match (wanted, found) {
-        (Type::Text(_), Type::Text(_)) => true,
-        (Type::Text(_), _) | (_, Type::Text(_)) | (Type::DateTime, Type::Array(_)) => false,
-        _ => wanted.bits() == found.bits() && found.width().is_none(),
-    }
-}
-
-fn find<'p>(parameters: &'p [Parameter], field: &Field) -> Option<&'p Parameter> {
-    let is_parameter = matches!(field.section, Section::Input | Section::Output | Section::InOut);
-    parameters.iter().find(|parameter| is_parameter && parameter.name.to_lowercase() == field.name.to_lowercase())
-}
-
-/// Refuses names that are no parameters of the block.
-fn check_names(interface: &Interface, parameters: &[Parameter], name: BlockName) -> Done {
-    for parameter in parameters {
-        let is_there =
-            interface.layout.fields.iter().any(|field| find(std::slice::from_ref(parameter), field).is_some());
-        if !is_there {
-            let names = interface.layout.fields.iter().map(|field| field.name.as_str());
-            let cure = crate::source::did_you_mean(&parameter.name, names, "check the declaration of the block");
-            return Err(Fault::new(parameter.at, format!("{name} has no parameter `{}`", parameter.name), cure));
-        }
-    }
-    Ok(())
 }

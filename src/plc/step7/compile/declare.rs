@@ -114,7 +114,8 @@ impl<'a> Known<'a> {
             Name::Symbol(symbol) => match self.symbols.address(symbol) {
                 Some(Address::Block(name)) => Ok(name),
                 Some(_) => {
-                    Err(Fault::new(at, format!("expected a block, found the symbol \"{symbol}\" of an address"), ""))
+                    let what = format!("expected a block, found \"{symbol}\", the symbol of an address");
+                    Err(Fault::new(at, what, "correct the symbol, or its row in the symbol table"))
                 }
                 None => Err(self.unknown_symbol(symbol, at)),
             },
@@ -201,7 +202,11 @@ impl<'a> Known<'a> {
             };
             // Functions of libraries declare their temporary variables as VAR.
             if is_wrong && !(is_function && declaration.section == Section::Static) {
-                return Err(Fault::new(at, "an organization block has VAR_TEMP only", "declare it as VAR_TEMP"));
+                let what = format!(
+                    "expected VAR_TEMP in an organization block, found `{}` in another section",
+                    declaration.name
+                );
+                return Err(Fault::new(at, what, "declare it as VAR_TEMP"));
             }
             let layout = if declaration.section == Section::Temp || is_wrong {
                 &mut interface.temporary
@@ -307,7 +312,7 @@ fn fill(bytes: &mut [u8], bit: u32, ty: &Type, values: &[(u32, Constant)], at: A
         for (index, value) in values.enumerate() {
             let index = u32::try_from(index).unwrap_or(u32::MAX);
             if index >= elements {
-                return Err(wrong(format!("at most {elements} values")));
+                return Err(wrong(format!("at most {elements} values, found more")));
             }
             store(bytes, bit + array.offset_of(index), &array.element, value).map_err(wrong)?;
         }
@@ -353,13 +358,18 @@ pub(in crate::plc::step7) fn walk(ty: &Type, path: &[Step], at: At) -> Result<(T
                     bit += (u32::try_from(index).unwrap_or(0) + 1) * 8;
                     Type::Char
                 }
-                _ => return Err(Fault::new(at, format!("expected an index from 1 to {length}"), "")),
+                _ => {
+                    let what = format!("expected an index from 1 to {length}, found {indices:?}");
+                    return Err(Fault::new(at, what, "a STRING has as many characters as its declaration says"));
+                }
             },
             (ty, Step::Member(name)) => {
-                return Err(Fault::new(at, format!("expected a structure before `.{name}`, found {}", ty.name()), ""));
+                let what = format!("expected a structure before `.{name}`, found {}", ty.name());
+                return Err(Fault::new(at, what, "remove the member, or check the declaration"));
             }
             (ty, Step::Index(_)) => {
-                return Err(Fault::new(at, format!("expected an array before the index, found {}", ty.name()), ""));
+                let what = format!("expected an array before the index, found {}", ty.name());
+                return Err(Fault::new(at, what, "remove the index, or check the declaration"));
             }
         };
         ty = next;

@@ -5,6 +5,7 @@
 mod built_in;
 mod calls;
 mod declare;
+mod parameters;
 mod settings;
 mod statements;
 mod unit;
@@ -76,6 +77,7 @@ pub fn compile(sources: &[Source], settings: &Settings) -> Compiled {
     let mut symbols = Symbols::default();
     let mut parsed = Vec::new();
     let mut languages = Vec::new();
+    let mut files = Vec::new();
     for (index, source) in sources.iter().enumerate() {
         let file = u16::try_from(index).unwrap_or(u16::MAX);
         match source.kind {
@@ -83,12 +85,27 @@ pub fn compile(sources: &[Source], settings: &Settings) -> Compiled {
                 faults.extend(symbols.read(&source.text, form, file).into_iter().map(|fault| (String::new(), fault)));
             }
             SourceKind::Statements => {
-                let Parsed { blocks, language, faults: found } = parse(&source.text, file);
-                faults.extend(found.into_iter().map(|fault| (String::new(), fault)));
-                languages.push((source.name.clone(), language));
-                parsed.extend(blocks.into_iter().map(|block| (block, language)));
+                let mut read = parse(&source.text, file);
+                faults.extend(read.faults.drain(..).map(|fault| (String::new(), fault)));
+                files.push((source.name.as_str(), read));
             }
         }
+    }
+    let of_folder =
+        settings.language.or_else(|| Language::of_balance(files.iter().map(|(_, read)| read.balance).sum()));
+    for (name, Parsed { blocks, balance, differs, .. }) in files {
+        let own = language_of_file(settings, name).or_else(|| Language::of_balance(balance));
+        if let (None, None, Some((at, word))) = (own, of_folder, differs) {
+            let what = format!(
+                "expected operations that are German or international, found only such that are both, and `{word}`"
+            );
+            let cure = "`SE` is an on-delay timer in German and an extended pulse in international operations: \
+                write `language = \"German\"` or `language = \"international\"` in `plc.toml`";
+            faults.push((String::new(), Fault::new(at, what, cure)));
+        }
+        let language = own.or(of_folder).unwrap_or(Language::International);
+        languages.push((name.to_owned(), language));
+        parsed.extend(blocks.into_iter().map(|block| (block, language)));
     }
     let mut known = Known::new(parsed.iter().map(|(block, _)| block), &symbols, settings);
     let language_of = |block: &Block| {
@@ -124,6 +141,12 @@ pub fn compile(sources: &[Source], settings: &Settings) -> Compiled {
     Compiled { program, findings, remarks, blocks, languages }
 }
 
+/// The language that `plc.toml` gives for a file, by its name without folders.
+fn language_of_file(settings: &Settings, name: &str) -> Option<Language> {
+    let file = std::path::Path::new(name).file_name()?.to_str()?;
+    settings.languages.get(file).copied()
+}
+
 /// The findings in the order of files and lines; what is not supported is listed once.
 fn findings(faults: Vec<Placed>, sources: &[Source]) -> Vec<Finding> {
     let mut faults = faults;
@@ -154,7 +177,7 @@ fn findings(faults: Vec<Placed>, sources: &[Source]) -> Vec<Finding> {
 
 /// Whether the engine calls an organization block.
 fn is_called(number: u16) -> bool {
-    matches!(number, 1 | 10..=17 | 20..=23 | 30..=38 | 40 | 80 | 100 | 102 | 121 | 122)
+    matches!(number, 1 | 10..=17 | 20..=23 | 30..=38 | 40 | 60 | 80 | 100 | 102 | 121 | 122)
 }
 
 /// The FNV-1a hash of the texts.

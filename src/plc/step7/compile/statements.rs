@@ -39,6 +39,7 @@ impl Unit<'_, '_> {
             if let Err(fault) = self.statement(statement, &statements[index + 1..], language) {
                 faults.push((statement.network, fault));
             }
+            faults.extend(self.further.drain(..).map(|fault| (statement.network, fault)));
         }
         self.emit(Op::End(Condition::Always));
         faults
@@ -88,11 +89,16 @@ impl Unit<'_, '_> {
                     Operand::Constant(constant) => {
                         let value = constant.bits().filter(|&value| is_double || value <= 0xFFFF);
                         let value = value.ok_or_else(|| {
-                            Fault::new(at, "expected a constant of this width", "write W#16# or DW#16#")
+                            let bits = width.bits();
+                            let what = format!("expected a constant of {bits} bits, found {constant}");
+                            Fault::new(at, what, "write W#16#… for 16 bits, DW#16#… for 32 bits")
                         })?;
                         self.emit(Op::WordLogicConstant(logic, width, value));
                     }
-                    _ => return Err(Fault::new(at, "expected a constant, or no operand", "write W#16# or DW#16#")),
+                    _ => {
+                        let what = format!("expected a constant, or no operand, found {operand}");
+                        return Err(Fault::new(at, what, "write W#16#… or DW#16#…, or load the operand before"));
+                    }
                 }
                 Ok(())
             }
@@ -132,7 +138,10 @@ impl Unit<'_, '_> {
                     self.emit(Op::AddRegisterConstant(register, *bits));
                     Ok(())
                 }
-                _ => Err(Fault::new(at, "expected a distance as P#2.0, or no operand", "")),
+                _ => {
+                    let what = format!("expected a distance as P#2.0, or no operand, found {operand}");
+                    Err(Fault::new(at, what, "without an operand ACCU1 is added"))
+                }
             },
             Operation::OpenData => self.open(operand, at),
             Operation::SwapDb => self.plain(operand, Op::SwapDb, at),
@@ -152,7 +161,9 @@ impl Unit<'_, '_> {
             Operation::PlainCall(condition) => self.plain_call(condition, operand, at),
             Operation::Mcr(mcr) => self.plain(operand, Op::Mcr(mcr), at),
             Operation::Timer(kind) => {
-                let Some(Named::Timer(number)) = self.named(operand, at)? else { return Err(expected_timer(at)) };
+                let Some(Named::Timer(number)) = self.named(operand, at)? else {
+                    return Err(expected_timer(operand, at));
+                };
                 self.emit(Op::StartTimer(kind, number));
                 Ok(())
             }
@@ -165,11 +176,12 @@ impl Unit<'_, '_> {
                     self.emit(Op::FreeCounter(number));
                     Ok(())
                 }
-                _ => Err(expected_timer(at)),
+                _ => Err(expected_timer(operand, at)),
             },
             Operation::CountUp | Operation::CountDown => {
                 let Some(Named::Counter(number)) = self.named(operand, at)? else {
-                    return Err(Fault::new(at, "expected a counter", "write `C 5`"));
+                    let what = format!("expected a counter, found {operand}");
+                    return Err(Fault::new(at, what, "write `C 5`, or a parameter of the type COUNTER"));
                 };
                 self.emit(if operation == Operation::CountUp { Op::CountUp(number) } else { Op::CountDown(number) });
                 Ok(())
@@ -184,7 +196,7 @@ impl Unit<'_, '_> {
     /// An operation without an operand.
     fn plain(&mut self, operand: &Operand, op: Op, at: At) -> Done {
         if *operand != Operand::None {
-            return Err(Fault::new(at, "expected `;`, found an operand", "this operation has no operand"));
+            return Err(Fault::new(at, format!("expected `;`, found {operand}"), "this operation has no operand"));
         }
         self.emit(op);
         Ok(())
@@ -196,10 +208,10 @@ impl Unit<'_, '_> {
             Operand::Constant(Constant::Bits(value, _)) => Some(i64::from(*value)),
             _ => None,
         };
-        value
-            .filter(|value| (0..=limit).contains(value))
-            .and_then(|value| u8::try_from(value).ok())
-            .ok_or_else(|| Fault::new(at, format!("expected a number from 0 to {limit}"), ""))
+        value.filter(|value| (0..=limit).contains(value)).and_then(|value| u8::try_from(value).ok()).ok_or_else(|| {
+            let what = format!("expected a number from 0 to {limit}, found {operand}");
+            Fault::new(at, what, "correct the number")
+        })
     }
 
     fn logic(&mut self, logic: Logic, operand: &Operand, at: At) -> Done {
@@ -234,18 +246,23 @@ impl Unit<'_, '_> {
             Operand::Constant(Constant::Integer(value)) => match i16::try_from(*value) {
                 Ok(value) => Op::AddWord(value.cast_unsigned()),
                 Err(_) => {
-                    let value =
-                        i32::try_from(*value).map_err(|_| Fault::new(at, "expected a number of 32 bits", ""))?;
+                    let value = i32::try_from(*value).map_err(|_| {
+                        let what = format!("expected a number from -2147483648 to 2147483647, found {value}");
+                        Fault::new(at, what, "the constant has 16 or 32 bits")
+                    })?;
                     Op::AddDouble(value.cast_unsigned())
                 }
             },
             Operand::Constant(constant @ Constant::Bits(_, 8 | 16)) => {
                 Op::AddWord(u16::try_from(constant.bits().unwrap_or(0)).unwrap_or(0))
             }
-            Operand::Constant(constant) => {
-                Op::AddDouble(constant.bits().ok_or_else(|| Fault::new(at, "expected a number", ""))?)
+            Operand::Constant(constant) => Op::AddDouble(constant.bits().ok_or_else(|| {
+                Fault::new(at, format!("expected a number, found {constant}"), "write `+ 5` or `+ L#5`")
+            })?),
+            _ => {
+                let what = format!("expected a constant, found {operand}");
+                return Err(Fault::new(at, what, "write `+ 5` or `+ L#5`; `+I`, `+D` and `+R` add the accumulators"));
             }
-            _ => return Err(Fault::new(at, "expected a constant", "write `+ 5` or `+ L#5`")),
         };
         self.emit(op);
         Ok(())
@@ -254,7 +271,8 @@ impl Unit<'_, '_> {
     fn load(&mut self, operand: &Operand, at: At) -> Done {
         let op = match operand {
             Operand::Constant(constant) => Op::LoadConstant(constant.bits().ok_or_else(|| {
-                Fault::new(at, "expected a constant of at most 32 bits", "texts have at most four characters here")
+                let what = format!("expected a constant of at most 32 bits, found {constant}");
+                Fault::new(at, what, "texts have at most four characters here")
             })?),
             Operand::Special("STW") => Op::LoadStatus,
             Operand::Special("DBLG") => Op::LoadData(DataRegister::DbLength),
@@ -281,7 +299,7 @@ impl Unit<'_, '_> {
         let op = match self.named(operand, at)? {
             Some(Named::Timer(number)) => Op::LoadTimer(is_bcd, number),
             Some(Named::Counter(number)) => Op::LoadCounter(is_bcd, number),
-            _ => return Err(expected_timer(at)),
+            _ => return Err(expected_timer(operand, at)),
         };
         self.emit(op);
         Ok(())
@@ -330,7 +348,10 @@ impl Unit<'_, '_> {
         let number = match self.named(operand, at)? {
             Some(Named::Data(number)) => number,
             Some(Named::Block(BlockName { kind: BlockKind::Db, number })) => Number::Direct(number),
-            _ => return Err(Fault::new(at, "expected a data block", "write `DB 10`, `DI 10` or `DB [MW 2]`")),
+            _ => {
+                let what = format!("expected a data block, found {operand}");
+                return Err(Fault::new(at, what, "write `DB 10`, `DI 10` or `DB [MW 2]`"));
+            }
         };
         if let Number::Direct(number) = number {
             self.note_block(number);
@@ -355,11 +376,15 @@ impl Unit<'_, '_> {
                 if let Target::System(_) = target
                     && self.known.interface(name, at)?.is_some_and(|interface| !interface.layout.fields.is_empty())
                 {
-                    return Err(Fault::new(at, format!("{name} has parameters"), "call it with CALL"));
+                    let what = format!("expected a block without parameters, found {name}, which has some");
+                    return Err(Fault::new(at, what, format!("write `CALL {name} ( … )`")));
                 }
                 Op::CallPlain(condition, target)
             }
-            _ => return Err(Fault::new(at, "expected a block with statements", "write `FC 10` or `FC [MW 2]`")),
+            _ => {
+                let what = format!("expected a block with statements, found {operand}");
+                return Err(Fault::new(at, what, "write `FC 10` or `FC [MW 2]`"));
+            }
         };
         self.emit(op);
         Ok(())
@@ -369,10 +394,14 @@ impl Unit<'_, '_> {
 fn label_of(operand: &Operand, at: At) -> Done<&str> {
     match operand {
         Operand::Bare(label, path) if path.is_empty() => Ok(label),
-        _ => Err(Fault::new(at, "expected a label", "a label has one to four letters, digits or `_`, and no address")),
+        _ => {
+            let what = format!("expected a label, found {operand}");
+            Err(Fault::new(at, what, "a label has one to four letters, digits or `_`, and is no address"))
+        }
     }
 }
 
-fn expected_timer(at: At) -> Fault {
-    Fault::new(at, "expected a timer or a counter", "write `T 5`, `C 5` or a parameter of this type")
+fn expected_timer(operand: &Operand, at: At) -> Fault {
+    let what = format!("expected a timer or a counter, found {operand}");
+    Fault::new(at, what, "write `T 5`, `C 5` or a parameter of this type")
 }

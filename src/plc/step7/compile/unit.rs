@@ -8,12 +8,13 @@ use crate::plc::step7::instruction::{
     Space, Width,
 };
 use crate::plc::step7::text::address::Address;
-use crate::plc::step7::text::constants::Constant;
 use crate::plc::step7::text::finding::{At, Fault, FindingKind};
+use crate::plc::step7::text::shown;
 use crate::plc::step7::text::syntax::{Operand, Statement, Step};
 use crate::plc::step7::text::types::{Section, Type};
 
 use super::declare::{Interface, Known, walk};
+use super::parameters::local_use;
 
 /// The tables of the program that grow with each block.
 #[derive(Default)]
@@ -85,6 +86,8 @@ pub(in crate::plc::step7) struct Unit<'k, 'a> {
     pub(in crate::plc::step7) interface: Arc<Interface>,
     /// Calls of missing blocks are left out.
     pub(in crate::plc::step7) ignores_missing: bool,
+    /// Further faults of the statement that is compiled.
+    pub(in crate::plc::step7) further: Vec<Fault>,
     labels: BTreeMap<String, (u32, At)>,
     jumps: Vec<(usize, String, At)>,
     /// Where the hidden local data for calls begin and end, in bits.
@@ -112,6 +115,7 @@ impl<'k, 'a> Unit<'k, 'a> {
             name,
             interface,
             ignores_missing,
+            further: Vec::new(),
             labels: BTreeMap::new(),
             jumps: Vec::new(),
             hidden,
@@ -219,8 +223,9 @@ impl<'k, 'a> Unit<'k, 'a> {
 
     /// What an operand names; `None` for constants and special operands.
     pub(in crate::plc::step7) fn named(&mut self, operand: &Operand, at: At) -> Done<Option<Named>> {
+        let of_block = self.name;
         let unknown = |name: &str| {
-            Fault::new(at, format!("`{name}` is not declared in this block"), "declare it, or put a symbol in quotes")
+            Fault::new(at, format!("`{name}` is not declared in {of_block}"), "declare it, or put a symbol in quotes")
         };
         Ok(Some(match operand {
             Operand::Local(name, path) | Operand::Bare(name, path) => {
@@ -231,7 +236,10 @@ impl<'k, 'a> Unit<'k, 'a> {
                 Some(Address::Block(BlockName { kind: BlockKind::Db, number })) => {
                     self.block_data(number, *width, *bit)
                 }
-                Some(_) => return Err(Fault::new(at, format!("expected a data block, found \"{symbol}\""), "")),
+                Some(_) => {
+                    let what = format!("expected a data block before the address, found \"{symbol}\"");
+                    return Err(Fault::new(at, what, "write the symbol of a data block"));
+                }
                 None => return Err(self.known.unknown_symbol(symbol, at)),
             },
             &Operand::Memory(space, width, bit) => self.memory(space, width, bit),
@@ -276,8 +284,8 @@ impl<'k, 'a> Unit<'k, 'a> {
             }
             _ if !path.is_empty() => Err(Fault::new(
                 at,
-                format!("\"{symbol}\" is not a data block, so it has no members"),
-                "check the symbol",
+                format!("expected a data block before `{}`, found \"{symbol}\"", shown::path(path)),
+                "write the symbol of a data block, or remove the member",
             )),
             Address::Memory(space, width, bit) => Ok(self.memory(space, width, bit)),
             Address::Timer(number) => {
@@ -289,7 +297,12 @@ impl<'k, 'a> Unit<'k, 'a> {
                 Ok(Named::Counter(Number::Direct(number)))
             }
             Address::Block(name) => Ok(Named::Block(name)),
-            Address::Other => Err(Fault::new(at, format!("\"{symbol}\" cannot be an operand"), "check the symbol")),
+            Address::Other => {
+                let what = format!(
+                    "expected an operand, found \"{symbol}\", a symbol of a variable table or a system data block"
+                );
+                Err(Fault::new(at, what, "write another symbol, or an address"))
+            }
         }
     }
 
@@ -351,7 +364,7 @@ impl<'k, 'a> Unit<'k, 'a> {
                 let fits = matches!(space, Space::Flags | Space::Local | Space::Data | Space::Instance);
                 if fits && kind.width() == Some(wanted) { Ok((space, bit)) } else { Err(wrong(&kind.name())) }
             }
-            _ => Err(wrong("another operand")),
+            _ => Err(wrong(&pointer.to_string())),
         }
     }
 
@@ -379,12 +392,13 @@ impl<'k, 'a> Unit<'k, 'a> {
                     Ok((width, place))
                 }
                 _ => {
-                    Err(Fault::new(at, format!("expected an operand of the width {wanted}, found {}", kind.name()), ""))
+                    let what = format!("expected an operand of the width {wanted}, found {operand}, {}", kind.name());
+                    Err(Fault::new(at, what, "write an operand of this width"))
                 }
             },
             _ => Err(Fault::new(
                 at,
-                format!("expected an operand of the width {wanted}"),
+                format!("expected an operand of the width {wanted}, found {operand}"),
                 "write an address or a variable",
             )),
         }
@@ -398,7 +412,8 @@ impl<'k, 'a> Unit<'k, 'a> {
             return Ok(AddressOf::Constant(0x86 << 24 | (field.bit + offset)));
         }
         let Some(field) = interface.layout.field(name) else {
-            return Err(Fault::new(at, format!("`{name}` is not declared in this block"), "declare it"));
+            let what = format!("`{name}` is not declared in {}", self.name);
+            return Err(Fault::new(at, what, "declare it"));
         };
         if self.is_function() {
             let index = interface.layout.fields.iter().position(|other| other.name == field.name).unwrap_or(0);
@@ -457,32 +472,5 @@ fn number(ty: &Type, number: Number) -> Named {
         Type::BlockDb => Named::Data(number),
         Type::BlockFb => Named::Code(BlockKind::Fb, number),
         _ => Named::Code(BlockKind::Fc, number),
-    }
-}
-
-/// The end of the local data that a statement names absolutely, in bits.
-fn local_use(statement: &Statement) -> Option<u32> {
-    let parameters = statement.parameters.iter().map(|parameter| &parameter.value);
-    parameters.chain([&statement.operand]).filter_map(local_end).max()
-}
-
-/// The end of the local data that an operand names absolutely, in bits.
-fn local_end(operand: &Operand) -> Option<u32> {
-    match operand {
-        Operand::Memory(Space::Local, width, bit) => Some(bit + width.bits()),
-        Operand::Indirect(_, _, pointer) | Operand::TimerAt(pointer) | Operand::CounterAt(pointer) => {
-            local_end(pointer)
-        }
-        Operand::BlockAt(_, _, pointer) => local_end(pointer),
-        Operand::Constant(Constant::Pointer { pointer, any: Some((code, count)), .. }) if pointer >> 24 == 0x86 => {
-            let bits = match code {
-                0x01 => 1,
-                0x02 | 0x03 => 8,
-                0x04 | 0x05 | 0x09 | 0x0C => 16,
-                _ => 32,
-            };
-            Some((pointer & 0x00FF_FFFF) + u32::from(*count) * bits)
-        }
-        _ => None,
     }
 }

@@ -245,17 +245,30 @@ impl Language {
         })
     }
 
-    /// The language of a source by the words that only one of them has; international if there is none.
-    pub(in crate::plc::step7) fn of<'a>(words: impl Iterator<Item = &'a str>) -> Self {
-        let mut balance = 0_i64;
-        for word in words {
-            match (INTERNATIONAL.contains_key(word), GERMAN.contains_key(word)) {
-                (true, false) => balance += 1,
-                (false, true) => balance -= 1,
-                _ => {}
-            }
+    /// The language of statements by the words that only one of them has: more than 0 international, less than 0 German, 0 for both.
+    pub(in crate::plc::step7) fn balance<'a>(words: impl Iterator<Item = &'a str>) -> i64 {
+        words.fold(0, |balance, word| match (INTERNATIONAL.contains_key(word), GERMAN.contains_key(word)) {
+            (true, false) => balance + 1,
+            (false, true) => balance - 1,
+            _ => balance,
+        })
+    }
+
+    /// The language of a balance.
+    pub(in crate::plc::step7) fn of_balance(balance: i64) -> Option<Self> {
+        match balance {
+            0 => None,
+            1.. => Some(Self::International),
+            _ => Some(Self::German),
         }
-        if balance < 0 { Self::German } else { Self::International }
+    }
+
+    /// Whether a word means one thing in German and another in international operations.
+    pub(in crate::plc::step7) fn differs(word: &str) -> bool {
+        match (INTERNATIONAL.get(word), GERMAN.get(word)) {
+            (Some(one), Some(other)) => one != other,
+            _ => false,
+        }
     }
 }
 
@@ -265,9 +278,12 @@ mod tests {
 
     #[test]
     fn words_of_one_language_decide() {
-        assert_eq!(Language::of(["L", "SE", "U"].into_iter()), Language::German);
-        assert_eq!(Language::of(["L", "SE", "A"].into_iter()), Language::International);
-        assert_eq!(Language::of(["L", "SE"].into_iter()), Language::International);
+        let of = |words: &[&'static str]| Language::of_balance(Language::balance(words.iter().copied()));
+        assert_eq!(of(&["L", "SE", "U"]), Some(Language::German));
+        assert_eq!(of(&["L", "SE", "A"]), Some(Language::International));
+        assert_eq!(of(&["L", "SE"]), None);
+        let words = OPERATIONS.iter().map(|&(word, ..)| word);
+        assert_eq!(words.filter(|word| Language::differs(word)).collect::<Vec<_>>(), ["SE"]);
         assert_eq!(Language::German.operation("SE"), Some(Operation::Timer(TimerKind::OnDelay)));
         assert_eq!(Language::International.operation("SE"), Some(Operation::Timer(TimerKind::ExtendedPulse)));
     }

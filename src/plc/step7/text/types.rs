@@ -338,7 +338,7 @@ impl Field {
 /// Writes a constant as a value of a type; the error is what was expected.
 pub(in crate::plc::step7) fn store(bytes: &mut [u8], bit: u32, ty: &Type, value: &Constant) -> Result<(), String> {
     let at = (bit / 8) as usize;
-    let expected = || format!("a value of the type {}", ty.name());
+    let expected = || format!("a value of the type {}, found {value}", ty.name());
     let bits = value_of(ty, value);
     let bits = match ty {
         Type::Text(length) => {

@@ -12,7 +12,10 @@ use super::reader::{Read, Reader};
 /// A source: its blocks, its language, and its faults.
 pub(in crate::plc::step7) struct Parsed {
     pub(in crate::plc::step7) blocks: Vec<Block>,
-    pub(in crate::plc::step7) language: Language,
+    /// Which language its operations are of: more than 0 international, less than 0 German.
+    pub(in crate::plc::step7) balance: i64,
+    /// An operation that means two things.
+    pub(in crate::plc::step7) differs: Option<(At, String)>,
     pub(in crate::plc::step7) faults: Vec<Fault>,
 }
 
@@ -43,8 +46,10 @@ pub(in crate::plc::step7) fn parse(text: &str, file: u16) -> Parsed {
         Body::Code { statements, .. } => statements.as_slice(),
         Body::Data { .. } | Body::Type { .. } => &[],
     });
-    let language = Language::of(words.map(|statement| statement.operation.as_str()));
-    Parsed { blocks, language, faults: reader.faults }
+    let balance = Language::balance(words.clone().map(|statement| statement.operation.as_str()));
+    let differs = words.clone().find(|statement| Language::differs(&statement.operation));
+    let differs = differs.map(|statement| (statement.at, statement.operation.clone()));
+    Parsed { blocks, balance, differs, faults: reader.faults }
 }
 
 /// The kind of a block by the word that opens it, and the word that ends it.

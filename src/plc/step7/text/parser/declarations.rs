@@ -163,7 +163,10 @@ impl Reader<'_> {
         let bound = self.integer()?;
         match i32::try_from(bound) {
             Ok(bound) if (-32_768..=32_767).contains(&bound) => Ok(bound),
-            _ => Err(Fault::new(at, format!("expected an index from -32768 to 32767, found {bound}"), "")),
+            _ => {
+                let what = format!("expected an index from -32768 to 32767, found {bound}");
+                Err(Fault::new(at, what, "correct the range of the array"))
+            }
         }
     }
 
@@ -177,7 +180,8 @@ impl Reader<'_> {
                 && self.takes("(")
             {
                 count = text.parse().ok().filter(|&count| count <= 65_536).ok_or_else(|| {
-                    Fault::new(before.clone().at(), "expected a number of repetitions of at most 65536", "")
+                    let what = format!("expected a number of repetitions from 0 to 65536, found {text}");
+                    Fault::new(before.clone().at(), what, "write `3 (9)` for three values 9")
                 })?;
                 values.push((count, self.value()?));
                 self.expect(")", "close the repetition")?;

@@ -140,18 +140,20 @@ impl<'a> Reader<'a> {
             };
             self.cursor.next();
             let (byte, bit) = text.split_once('.').map_or((text, None), |(byte, bit)| (byte, Some(bit)));
-            place(width, byte, bit)
+            place(width, byte, bit).map_err(|expected| format!("expected {expected}, found `{text}`"))
         } else {
             let mut bit = None;
             if self.takes(".") {
-                let Token::Number(digits) = self.cursor.next() else {
-                    return Err(Fault::new(at, "expected a bit from 0 to 7 after the dot", ""));
+                let Token::Number(digits) = self.cursor.peek() else {
+                    return Err(self.expected("a bit from 0 to 7 after the dot", "write it as `20.0`"));
                 };
+                self.cursor.next();
                 bit = Some(digits);
             }
-            place(width, attached, bit)
+            let found = bit.map_or_else(|| attached.to_owned(), |bit| format!("{attached}.{bit}"));
+            place(width, attached, bit).map_err(|expected| format!("expected {expected}, found `{found}`"))
         };
-        placed.map_err(|expected| Fault::new(at, format!("expected {expected}"), "check the address"))
+        placed.map_err(|what| Fault::new(at, what, "check the address"))
     }
 
     /// A constant; `None` if the next token is none.
@@ -201,7 +203,8 @@ impl<'a> Reader<'a> {
         }
         self.expect(")", "close the list of bytes")?;
         if bytes != 2 && bytes != 4 {
-            return Err(Fault::new(at, format!("expected 2 or 4 bytes, found {bytes}"), ""));
+            let what = format!("expected 2 or 4 bytes, found {bytes}");
+            return Err(Fault::new(at, what, "write `B#(1, 2)` for a word, `B#(1, 2, 3, 4)` for a double word"));
         }
         Ok(Constant::Bits(value, bytes * 8))
     }
