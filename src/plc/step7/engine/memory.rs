@@ -45,6 +45,11 @@ pub trait Areas {
         false
     }
 
+    /// Deletes a data block that the program has made; `false` for another one.
+    fn delete(&mut self, _number: u16) -> bool {
+        false
+    }
+
     /// Whether a data block is one of an interface with a control.
     fn is_interface(&self, _block: OpenBlock) -> bool {
         false
@@ -72,6 +77,8 @@ pub struct OwnMemory {
     /// Flags (M).
     pub flags: Vec<u8>,
     blocks: Vec<Vec<u8>>,
+    /// How many of them the program brought.
+    loaded: usize,
     /// For each number the index of its block and 1, or 0.
     slots: Arc<[u16]>,
 }
@@ -92,6 +99,7 @@ impl OwnMemory {
             outputs: zeros(sizes.outputs),
             flags: zeros(sizes.flags),
             blocks: program.data_blocks().iter().map(bytes).collect(),
+            loaded: program.data_blocks().len(),
             slots: slots.into(),
         }
     }
@@ -144,6 +152,16 @@ impl Areas for OwnMemory {
         let mut slots = self.slots.to_vec();
         slots.resize(slots.len().max(usize::from(number) + 1), 0);
         slots[usize::from(number)] = u16::try_from(self.blocks.len()).unwrap_or(u16::MAX);
+        self.slots = slots.into();
+        true
+    }
+
+    fn delete(&mut self, number: u16) -> bool {
+        // Blocks of the program are before those that it made.
+        let Some(index) = self.index(number).filter(|index| *index >= self.loaded) else { return false };
+        self.blocks[index].clear();
+        let mut slots = self.slots.to_vec();
+        slots[usize::from(number)] = 0;
         self.slots = slots.into();
         true
     }

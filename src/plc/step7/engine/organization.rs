@@ -212,6 +212,20 @@ impl Cpu {
         self.error_block(areas, &information)
     }
 
+    /// The multicomputing interrupt (SFC 35): OB60 runs within the block that asks for it, which then goes on as it was.
+    pub(in crate::plc::step7) fn multicomputing_interrupt<A: Areas>(
+        &mut self,
+        areas: &mut A,
+        job: u8,
+    ) -> Result<(), Fault> {
+        if self.work.in_error || self.program.find(BlockKind::Ob, 60).is_none() {
+            return Ok(());
+        }
+        let mut information = self.information(0x11, 0x61, 25, 60);
+        information[6..8].copy_from_slice(&[0, job]);
+        self.error_block(areas, &information)
+    }
+
     /// Runs OB80, OB121 or OB122 within another block, which then goes on as it was.
     fn error_block<A: Areas>(&mut self, areas: &mut A, information: &Information) -> Result<(), Fault> {
         let (registers, mcr, pc, delayed) = (self.state.registers, self.work.mcr, self.work.pc, self.state.delayed);

@@ -89,13 +89,51 @@ impl Cpu {
         self.result(areas, 1, 0)
     }
 
+    /// RTM: an hours meter with 32 bits. MODE 0 reads it; 1 starts it, 2 stops it; 4 sets it to PV, 5 and starts it, 6 and stops it.
+    pub(in crate::plc::step7) fn long_hours<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
+        let number = self.argument(areas, 0, Width::Byte)? as usize;
+        let mode = self.argument(areas, 1, Width::Byte)?;
+        let preset = self.argument(areas, 2, Width::Double)?.cast_signed();
+        let now = self.work.now;
+        let Some(meter) = self.state.hours.get(number).copied() else {
+            self.set_argument(areas, 4, Width::Bit, 0)?;
+            self.set_argument(areas, 5, Width::Double, 0)?;
+            return self.result(areas, 3, 0x8080);
+        };
+        let counted = i64::from(preset).saturating_mul(HOUR_NANOS);
+        let (after, result) = match mode {
+            0 => (meter, 0),
+            1 => (HoursMeter { since: meter.since.or(Some(now)), ..meter }, 0),
+            2 => (meter.stopped(now), 0),
+            4..=6 if preset < 0 => (meter, 0x8081),
+            4 => (HoursMeter { counted, since: meter.since.map(|_| now) }, 0),
+            5 => (HoursMeter { counted, since: Some(now) }, 0),
+            6 => (HoursMeter { counted, since: None }, 0),
+            // A MODE that does not exist.
+            _ => (meter, 0x8082),
+        };
+        self.state.hours[number] = after;
+        let hours = (after.nanos(now) / HOUR_NANOS).clamp(0, i64::from(i32::MAX));
+        self.set_argument(areas, 4, Width::Bit, after.since.is_some().into())?;
+        self.set_argument(areas, 5, Width::Double, u32::try_from(hours).unwrap_or(0))?;
+        self.result(areas, 3, result)
+    }
+
     /// CREAT_DB: the first spare number from LOW_LIMIT to UP_LIMIT gets a data block of COUNT bytes.
     pub(in crate::plc::step7) fn create_block<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
-        let number = |value: u32| u16::try_from(value).unwrap_or(0);
-        let low = number(self.argument(areas, 0, Width::Word)?);
-        let high = number(self.argument(areas, 1, Width::Word)?);
-        let count = number(self.argument(areas, 2, Width::Word)?);
-        let (result, made) = if low == 0 || high < low {
+        let (result, made) = self.make_block(areas, [0, 1, 2])?;
+        self.set_argument(areas, 4, Width::Word, made.into())?;
+        self.result(areas, 3, result)
+    }
+
+    /// The result and the number of a new data block, with the parameters of its limits and its length.
+    pub(super) fn make_block<A: Areas>(&mut self, areas: &mut A, parameters: [u16; 3]) -> Result<(u32, u16), Fault> {
+        let mut values = [0; 3];
+        for (value, parameter) in values.iter_mut().zip(parameters) {
+            *value = u16::try_from(self.argument(areas, parameter, Width::Word)?).unwrap_or(0);
+        }
+        let [low, high, count] = values;
+        Ok(if low == 0 || high < low {
             (0x80A1, 0)
         } else if count == 0 || count % 2 == 1 {
             (0x80A2, 0)
@@ -105,8 +143,6 @@ impl Cpu {
                 Some(spare) if areas.create(spare, count) => (0, spare),
                 Some(_) => (0x80B2, 0),
             }
-        };
-        self.set_argument(areas, 4, Width::Word, made.into())?;
-        self.result(areas, 3, result)
+        })
     }
 }

@@ -9,8 +9,8 @@ use super::interface::{BASIC, SYSTEM, System};
 const DAY_MILLIS: i64 = 86_400_000;
 
 impl Cpu {
-    /// Runs a built-in block in the frame that was made for it.
-    pub(in crate::plc::step7) fn built_in<A: Areas>(&mut self, areas: &mut A, index: u16) -> Result<(), Fault> {
+    /// Runs a built-in block, observed or not.
+    pub(super) fn run_built_in<A: Areas>(&mut self, areas: &mut A, index: u16) -> Result<(), Fault> {
         if let Some(basic) = usize::from(index).checked_sub(BASIC) {
             return self.basic_program(areas, basic);
         }
@@ -24,7 +24,7 @@ impl Cpu {
             System::StartInformation => self.start_information(areas),
             System::ReadConsistent => self.read_consistent(areas),
             System::WriteConsistent => self.write_consistent(areas),
-            System::BlockMove => self.block_move(areas),
+            System::BlockMove => self.move_block(areas, [0, 1, 2]),
             System::Fill => self.fill(areas),
             System::UpdateImage => {
                 self.set_argument(areas, 2, Width::Word, 0)?;
@@ -79,6 +79,14 @@ impl Cpu {
             what @ (System::StartDelay | System::CancelDelay | System::QueryDelay) => self.time_delay(areas, what),
             what @ (System::MaskFaults | System::UnmaskFaults | System::ReadFaults) => self.masks(areas, what),
             System::ReplaceValue => self.replace_value(areas),
+            System::DeleteBlock => self.delete_block(areas),
+            System::CreateLoaded => self.create_loaded(areas),
+            System::MoveLoaded => self.move_loaded(areas),
+            System::SetBits(value) => self.set_bits(areas, value),
+            System::StateList => self.state_list(areas),
+            System::Multicomputing => self.multicomputing(areas),
+            System::LongHours => self.long_hours(areas),
+            System::Refuse(status) => self.refuse(areas, index, status),
             library => self.library(areas, library),
         }
     }

@@ -7,6 +7,7 @@ use crate::plc::step7::instruction::{BlockKind, BlockName};
 use crate::plc::step7::text::types::{Array, Layout, Section, Type};
 
 use super::further::FURTHER;
+use super::rare::RARE;
 pub(in crate::plc::step7) use super::rows::{Kind, System, SystemBlock};
 use super::rows::{RETURN, row, sfc};
 
@@ -42,8 +43,9 @@ const TEXT_PART: &[(&str, Section, Kind)] = &[("IN", Input, Text), ("L", Input, 
 const MOVE: &[(&str, Section, Kind)] = &[("SRCBLK", Input, Any), RETURN, ("DSTBLK", Output, Any)];
 
 /// All built-in blocks.
-pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] =
-    &joined::<{ FREQUENT.len() + FURTHER.len() }>(FREQUENT, FURTHER);
+pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &joined::<{ COMMON.len() + RARE.len() }>(COMMON, RARE);
+
+const COMMON: &[SystemBlock] = &joined::<{ FREQUENT.len() + FURTHER.len() }>(FREQUENT, FURTHER);
 
 const fn joined<const N: usize>(first: &[SystemBlock], second: &[SystemBlock]) -> [SystemBlock; N] {
     let mut all = [first[0]; N];
@@ -288,6 +290,8 @@ impl Kind {
             Self::Any => Type::Any,
             Self::Information => bytes(20),
             Self::TimerState => bytes(10),
+            Self::Pointer => Type::Pointer,
+            Self::Header => bytes(4),
         }
     }
 }

@@ -8,6 +8,9 @@ mod iec;
 mod interface;
 mod interrupts;
 mod library;
+mod loaded_blocks;
+mod observed;
+mod rare;
 mod rows;
 mod transfer;
 

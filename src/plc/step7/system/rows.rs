@@ -91,6 +91,16 @@ pub(in crate::plc::step7) enum System {
     ReplaceValue,
     RealToText,
     TextToReal,
+    DeleteBlock,
+    CreateLoaded,
+    MoveLoaded,
+    /// SET or RSET.
+    SetBits(bool),
+    StateList,
+    Multicomputing,
+    LongHours,
+    /// A function block whose partner does not exist, with its STATUS.
+    Refuse(u32),
 }
 
 /// Names, sections and types of parameters.
@@ -127,6 +137,9 @@ pub(in crate::plc::step7) enum Kind {
     Information,
     /// Internal data of an IEC timer: 10 bytes.
     TimerState,
+    Pointer,
+    /// The header of a system state list: 4 bytes.
+    Header,
 }
 
 pub(super) const fn sfc(number: u16) -> Option<BlockName> {

@@ -1,9 +1,14 @@
 //! SFC 20, 21, 81: blocks of memory; SFC 14, 15: the peripheral area.
 
+use arrayvec::ArrayVec;
+
 use crate::plc::step7::engine::{Area, Areas, Cpu, Fault, Spot, Where};
 use crate::plc::step7::instruction::Width;
 
 use super::dispatch::own_local_is_the_callers;
+
+/// The pieces of a copy that are followed.
+const MOST: usize = 512;
 
 /// A piece of memory to which an ANY points.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +20,7 @@ pub(in crate::plc::step7) struct Region {
 }
 
 /// `RET_VAL` for an error of a parameter, counted from one.
-fn error(parameter: u32, fault: Fault) -> u32 {
+pub(super) fn error(parameter: u32, fault: Fault) -> u32 {
     0x8000 | parameter << 8 | u32::from(fault.code().unwrap_or(0x7F))
 }
 
@@ -83,23 +88,30 @@ impl Cpu {
         Ok(value)
     }
 
-    /// BLKMOV: the smaller of both lengths, ascending.
-    pub(in crate::plc::step7) fn block_move<A: Areas>(&mut self, areas: &mut A) -> Result<(), Fault> {
-        let (from, to) = match (self.region(areas, 0), self.region(areas, 2)) {
+    /// BLKMOV: the smaller of both lengths, ascending; the parameters of the source, the result and the target.
+    pub(in crate::plc::step7) fn move_block<A: Areas>(
+        &mut self,
+        areas: &mut A,
+        [source, result, target]: [u16; 3],
+    ) -> Result<(), Fault> {
+        let number = |parameter: u16| u32::from(parameter) + 1;
+        let (from, to) = match (self.region(areas, source), self.region(areas, target)) {
             (Ok(from), Ok(to)) => (from, to),
-            (Err(fault), _) => return self.result(areas, 1, error(1, fault)),
-            (_, Err(fault)) => return self.result(areas, 1, error(3, fault)),
+            (Err(fault), _) => return self.result(areas, result, error(number(source), fault)),
+            (_, Err(fault)) => return self.result(areas, result, error(number(target), fault)),
         };
+        let before = self.pieces(areas, &to, from.bytes.min(to.bytes));
         for byte in 0..from.bytes.min(to.bytes) {
             let value = match self.byte_of(areas, &from, byte) {
                 Ok(value) => value,
-                Err(fault) => return self.result(areas, 1, error(1, fault)),
+                Err(fault) => return self.result(areas, result, error(number(source), fault)),
             };
             if let Err(fault) = self.write_bytes(areas, to.spot.after(byte), [value]) {
-                return self.result(areas, 1, error(3, fault));
+                return self.result(areas, result, error(number(target), fault));
             }
         }
-        self.result(areas, 1, 0)
+        self.note_pieces(areas, (&from, &to), &before, |byte| byte);
+        self.result(areas, result, 0)
     }
 
     /// FILL: the pattern is repeated, its last part is cut.
@@ -112,6 +124,7 @@ impl Cpu {
         if pattern.bytes == 0 {
             return self.result(areas, 1, 0);
         }
+        let before = self.pieces(areas, &to, to.bytes);
         for byte in 0..to.bytes {
             let value = match self.byte_of(areas, &pattern, byte % pattern.bytes) {
                 Ok(value) => value,
@@ -121,7 +134,49 @@ impl Cpu {
                 return self.result(areas, 1, error(3, fault));
             }
         }
+        self.note_pieces(areas, (&pattern, &to), &before, |byte| byte % pattern.bytes);
         self.result(areas, 1, 0)
+    }
+
+    /// The pieces of a region before a copy, for an observed CPU: words and what is left of them.
+    fn pieces<A: Areas>(&self, areas: &A, region: &Region, bytes: u32) -> Vec<(u32, Width, u32)> {
+        let mut pieces = Vec::new();
+        let mut byte = 0;
+        while self.observed.is_some() && byte < bytes && pieces.len() < MOST {
+            let width = if bytes - byte >= 2 { Width::Word } else { Width::Byte };
+            let Ok(value) = self.read(areas, region.spot.after(byte), width) else { break };
+            pieces.push((byte, width, value));
+            byte += width.bits() / 8;
+        }
+        pieces
+    }
+
+    /// After a copy: the pieces that changed, each with the piece of the source that it has now.
+    fn note_pieces<A: Areas>(
+        &mut self,
+        areas: &A,
+        (from, to): (&Region, &Region),
+        before: &[(u32, Width, u32)],
+        source: impl Fn(u32) -> u32,
+    ) {
+        let inputs = self.observed.as_mut().map(|observed| std::mem::take(&mut observed.inputs));
+        for &(byte, width, old) in before {
+            let spot = to.spot.after(byte);
+            let Ok(now) = self.read(areas, spot, width) else { continue };
+            let mut read = ArrayVec::new();
+            let at = from.spot.after(source(byte));
+            let is_whole = source(byte) + width.bits() / 8 <= from.bytes;
+            if is_whole && let Ok(value) = self.read(areas, at, width) {
+                self.note_read(at, width, value, &mut read);
+            }
+            if let Some(observed) = &mut self.observed {
+                observed.inputs = read;
+            }
+            self.note_called(areas, spot, width.bits(), (old, now));
+        }
+        if let (Some(observed), Some(inputs)) = (&mut self.observed, inputs) {
+            observed.inputs = inputs;
+        }
     }
 
     /// DPRD_DAT: from the peripheral area at LADDR.
