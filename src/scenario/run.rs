@@ -435,7 +435,16 @@ impl Finished {
     /// What its rules have to say although they are not broken: rules that never began, and watches that are open.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
-        self.session.book.remarks()
+        let mut remarks = self.session.book.remarks();
+        remarks.extend(self.stop_of_plc());
+        remarks
+    }
+
+    /// The fault for which the PLC is in STOP at the end, in one line, unless the failure already says so.
+    fn stop_of_plc(&self) -> Option<String> {
+        let fault = self.session.machine().plc_fault()?.lines().next()?;
+        let is_told = self.failure.as_ref().is_some_and(|failure| failure.to_string().contains(fault));
+        (!is_told).then(|| format!("the PLC is in STOP: {fault}"))
     }
 
     /// The smallest margin of each rule, one line each.

@@ -131,7 +131,8 @@ fn a_program_with_findings_is_not_loaded() {
 
 #[test]
 fn a_fault_stops_the_plc_with_its_place_and_the_registers() {
-    let directory = directory("fault", &ob1("A I 0.0;\nJCN a;\nL 2;\nOPN DB 99;\na: NOP 0;"), "");
+    let directory =
+        directory("fault", &ob1("A I 0.0;\nJCN a;\nL 2;\nOPN DB 99;\na: SET;\n= Q 0.0;\n= DB32.DBX 2.1;"), "");
     let finished = passes(
         &directory,
         "[[step]]\nrun = \"10cycles\"\n[[step]]\nset = { \"I0.0\" = 1 }\n[[step]]\nwait = \"alarm(2000)\"\nwithin = \"1cycles\"\n",
@@ -140,6 +141,12 @@ fn a_fault_stops_the_plc_with_its_place_and_the_registers() {
     let place = "# OB1, network 2, statement 4 (main.awl:8): DB99 is not loaded /   ACCU1 00000002 ACCU2 00000000";
     assert!(text.contains(place), "{text}");
     let machine = finished.session().machine();
+    // P-150: the output that the same scan has set, and the enables of an earlier one.
+    for address in ["Q0.0", "DB32.DBX2.1"] {
+        let location = machine.names().resolve(machine.memory(), address).unwrap();
+        assert_eq!(machine.memory().read(location), 0, "{address}");
+    }
+    assert!(finished.remarks().iter().any(|line| line.contains("statement 4 (main.awl:8): DB99 is not loaded")));
     let diagnosis = machine.plc_diagnosis().unwrap();
     assert_eq!((diagnosis.cause, diagnosis.stop), (Some(0x253A), 0x4562));
     assert!(machine.is_plc_stopped());
@@ -392,7 +399,7 @@ fn an_observed_machine_has_the_same_bytes() {
 #[cfg(feature = "cli")]
 fn coverage_is_written_in_three_forms() {
     let directory = directory("coverage", &ob1("A I 0.0;\n= M 0.0;\nJC a;\nA I 0.1;\n= M 0.1;\na: NOP 0;"), "");
-    let text = "machine = \"g1_example\"\nplc = \"step7/portal\"\nwatch = [\"M0.0\"]\n[[step]]\nrun = \"10ms\"\n";
+    let text = "machine = \"g1_example\"\nplc = \"./step7/portal\"\nwatch = [\"M0.0\"]\n[[step]]\nrun = \"10ms\"\n";
     fs::write(directory.join("s.toml"), text).unwrap();
     let opennck = |arguments: &[&str]| {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_opennck"));
@@ -404,7 +411,7 @@ fn coverage_is_written_in_three_forms() {
         )
     };
     // Without I 0.0: both contacts are false, the jump is not taken.
-    let line = "PLC step7/portal: 6 of 6 statements (100 %), 1 of 1 networks (100 %), 1 of 2 branches (50 %), 0 of 2 contacts true and false (0 %)\n";
+    let line = "PLC ./step7/portal: 6 of 6 statements (100 %), 1 of 1 networks (100 %), 1 of 2 branches (50 %), 0 of 2 contacts true and false (0 %)\n";
     for file in ["c.html", "c.json", "c.lcov"] {
         let (code, out, err) = opennck(&["run", "s.toml", "--plc-coverage", file]);
         assert!(code == Some(0) && out.ends_with(line), "{out}{err}");

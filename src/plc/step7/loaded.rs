@@ -1,17 +1,17 @@
 //! A program that a machine runs: its CPU between the memory of the machine and the calls of the machine.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::image::{AsBytes, Bytes, DataBlock, Format, Location, Memory, Names, Part};
+use crate::image::{AsBytes, Block, Bytes, DataBlock, Format, Location, Memory, Names, Part};
 use crate::plc::{PlcFault, PlcIo, PlcProgram, ProgramCause, Tested};
 use crate::source::{Place, Problem};
 use crate::units::Time;
 
 use super::compile::{Settings, Source, compile};
 use super::coverage::Coverage;
-use super::engine::{Area, Cpu, CpuOptions, CpuState, Named, Read, Seen, Stop};
+use super::engine::{Area, Cpu, CpuOptions, CpuState, Named, Read, Seen, Stop, text_of};
 use super::folder::Folder;
 use super::program::Program;
 use super::text::finding::Finding;
@@ -47,7 +47,7 @@ pub fn folder(name: &str, directories: &[&Path]) -> PathBuf {
 /// The folder cannot be read, or the compiler has findings; the problem is the first of them.
 pub fn load(folder: &Path, name: &str) -> Result<LoadedProgram, Problem> {
     let Folder { mut sources, toml } = Folder::read(folder)?;
-    let paths: Vec<String> = sources.iter().map(|source| source.name.clone()).collect();
+    let paths: Vec<String> = sources.iter().map(|source| plain(&source.name)).collect();
     for source in &mut sources {
         // Messages of a run name the file within the folder, so that they are the same on every computer.
         let file = Path::new(&source.name).file_name();
@@ -130,7 +130,8 @@ impl LoadedProgram {
             Named::Timer(number) => Tested::TimerValue(number, word),
             Named::Counter(number) if bits == 1 => Tested::Counter(number, value != 0),
             Named::Counter(number) => Tested::CounterValue(number, word),
-            Named::Area(..) | Named::Block(..) | Named::ToNck(_) => {
+            Named::Operation(pc) => Tested::Operation(self.operation(pc)?, value != 0),
+            Named::Area(..) | Named::Block(..) | Named::ToNck(_) | Named::FromNck(_) => {
                 let (part, begin) = self.place(named)?;
                 let location = Location {
                     part,
@@ -159,6 +160,15 @@ impl LoadedProgram {
         Arc::clone(known.entry(pc).or_insert_with(|| self.cpu.program().place(pc).into()))
     }
 
+    /// An operation whose operand has no name, with its line: "`A <0` (main.awl:12)".
+    fn operation(&self, pc: u32) -> Option<Arc<str>> {
+        let program = self.cpu.program();
+        let text = text_of(*program.code.get(pc as usize)?)?;
+        let line = program.lines.get(pc as usize).copied().unwrap_or_default();
+        let file = program.files.get(usize::from(line.file)).map_or("", String::as_str);
+        Some(format!("`{text}` ({file}:{})", line.line).into())
+    }
+
     /// The part of the memory in which something is, and its address in bits.
     fn place(&self, named: Named) -> Option<(Part, u32)> {
         Some(match named {
@@ -166,8 +176,10 @@ impl LoadedProgram {
             Named::Area(Area::Outputs, bit) => (Part::Outputs, bit),
             Named::Area(Area::Flags, bit) => (Part::Flags, bit),
             Named::ToNck(bit) => (Part::ToNck, bit),
+            Named::FromNck(bit) => (Part::FromNck, bit),
             Named::Timer(number) => (Part::Timers, u32::from(number) * 16),
             Named::Counter(number) => (Part::Counters, u32::from(number) * 16),
+            Named::Operation(_) => return None,
             Named::Block(number, bit) => {
                 let (part, byte) = self.map.place(number, bit / 8)?;
                 (part, byte * 8 + bit % 8)
@@ -215,8 +227,8 @@ impl PlcProgram for LoadedProgram {
         &self.name
     }
 
-    /// Areas become as large as the program needs them. Its data blocks are added, but for those of the interface, whose bytes are the
-    /// interface, and those that the machine has already.
+    /// Areas become as large as the program needs them. Its data blocks are added, but for those of the interface that the machine uses, whose
+    /// bytes are the interface, and those that the machine has already.
     fn install(&mut self, memory: &mut Memory, names: &Names) {
         let program = self.cpu.program();
         let sizes = program.sizes();
@@ -232,8 +244,7 @@ impl PlcProgram for LoadedProgram {
         }
         for block in program.data_blocks() {
             let is_untouched = |bytes: &Bytes| bytes.iter().all(|byte| *byte == 0) && is_standard(block.number, names);
-            if names.profile.has(block.number) || memory.blocks.get(block.number).is_some_and(|old| !is_untouched(old))
-            {
+            if is_used(block.number, names) || memory.blocks.get(block.number).is_some_and(|old| !is_untouched(old)) {
                 continue;
             }
             let name = block.symbol.as_deref().map(Into::into);
@@ -341,6 +352,22 @@ impl PlcProgram for LoadedProgram {
         let observed = self.cpu.observed.as_ref()?;
         Some(Coverage::of(&self.name, self.cpu.program(), observed, self.files.to_vec()))
     }
+}
+
+/// A path without `.` in it, as other tools write it.
+fn plain(path: &str) -> String {
+    let parts = Path::new(path).components().filter(|part| *part != Component::CurDir);
+    parts.collect::<PathBuf>().display().to_string()
+}
+
+/// Whether a data block is one of the interface, and not of an axis or a channel that the machine does not have (P-151).
+fn is_used(number: u16, names: &Names) -> bool {
+    names.profile.has(number)
+        && names.profile.block_of(number).is_none_or(|(block, number)| match block {
+            Block::Nck | Block::ModeGroup => true,
+            Block::Channel => number == 1 || names.owner(block, number).is_some(),
+            Block::Axis => names.owner(block, number).is_some(),
+        })
 }
 
 fn is_standard(number: u16, names: &Names) -> bool {

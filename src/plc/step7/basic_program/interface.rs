@@ -28,6 +28,31 @@ pub(super) enum Basic {
     Direction,
 }
 
+impl Basic {
+    /// Whether it writes signals to the NCK.
+    pub(super) fn writes_to_the_nck(self) -> bool {
+        match self {
+            Self::General
+            | Self::Messages
+            | Self::SpinCtrl
+            | Self::Panel
+            | Self::TurningPanel
+            | Self::PositionAxis
+            | Self::IndexAxis => true,
+            Self::RunUp
+            | Self::Interrupt
+            | Self::Diagnosis
+            | Self::Get
+            | Self::Put
+            | Self::Service
+            | Self::Interrupts
+            | Self::Transfer
+            | Self::Revolver
+            | Self::Direction => false,
+        }
+    }
+}
+
 /// A row of the table.
 pub(in crate::plc::step7) struct BasicBlock {
     pub(super) basic: Basic,

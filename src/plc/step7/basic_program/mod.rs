@@ -30,14 +30,18 @@ impl Cpu {
     /// Runs a block of the basic program in the frame that was made for it.
     pub(in crate::plc::step7) fn basic_program<A: Areas>(&mut self, areas: &mut A, index: usize) -> Result<(), Fault> {
         let Some(block) = BLOCKS.get(index) else { return Ok(()) };
-        if self.observed.is_none() {
+        if self.observed.is_none() || !block.basic.writes_to_the_nck() {
             return self.run_basic(areas, block);
         }
         let mut before =
             self.observed.as_mut().map(|observed| std::mem::take(&mut observed.interface)).unwrap_or_default();
         before.clear();
-        if let Some(link) = areas.link() {
+        if let (Some(link), Some(observed)) = (areas.link(), &mut self.observed) {
             before.extend_from_slice(link.to_nck.as_bytes());
+            let now = &mut observed.from_nck[1];
+            if now.is_empty() {
+                now.extend_from_slice(link.from_nck.as_bytes());
+            }
         }
         let pc = self.observed.as_ref().map_or(0, |observed| observed.pc);
         let done = self.run_basic(areas, block);
@@ -99,12 +103,9 @@ impl Cpu {
         self.write(areas, spot, width, value)
     }
 
-    /// Writes an output of a function; causes name the call.
+    /// Writes an output of a function.
     fn set_output<A: Areas>(&mut self, areas: &mut A, index: u16, width: Width, value: u32) -> Result<(), Fault> {
         let spot = self.reference(index)?;
-        if width == Width::Bit && self.observed.is_some() && self.read(areas, spot, width)? != value {
-            self.note_output(spot, value != 0);
-        }
         self.write(areas, spot, width, value)
     }
 

@@ -40,20 +40,20 @@ impl Cpu {
         basic.user_areas = u8::try_from(users.min(32)).unwrap_or(32);
         let Some(mut link) = areas.link() else { return Ok(()) };
         let counts = fill_machine_data(&mut link);
-        let groups = ChannelNumber::all().filter(|channel| link.names.channels[*channel].is_some());
-        let groups = groups.filter_map(|channel| {
-            let variable =
-                NcVariable { module: 0x1A, column: 10_010, line: channel.number().into(), ..Default::default() };
-            link.nc.read(variable)
-        });
-        let groups = groups.fold(1.0, f64::max);
-        let channels: Vec<_> = ChannelNumber::all().map(|channel| link.names.channels[channel].is_some()).collect();
+        // MD10010: the mode group of a channel, 0 for one that does not exist.
+        let group = |channel: ChannelNumber| {
+            let line = channel.number().into();
+            link.nc.read(NcVariable { module: 0x1A, column: 10_010, line, ..Default::default() }).unwrap_or(0.0)
+        };
+        let groups = ChannelNumber::all().map(group).fold(1.0, f64::max);
+        let channels: Vec<_> =
+            ChannelNumber::all().map(|channel| channel == ChannelNumber::FIRST || group(channel) > 0.0).collect();
         let axes: Vec<_> = link.names.axes.iter().map(|(_, name)| name.is_some()).collect();
         let highest = |there: &[bool]| there.iter().rposition(|there| *there).map_or(0, |index| index as u32 + 1);
         let [integers, bytes, reals] = counts;
         let outputs = [
             ("MaxBAG", groups as u32),
-            ("MaxChan", highest(&channels).max(1)),
+            ("MaxChan", highest(&channels)),
             ("MaxAxis", highest(&axes)),
             ("UDInt", integers),
             ("UDHex", bytes),
@@ -82,8 +82,10 @@ impl Cpu {
             pass_selections(&mut link, &mut basic.selections);
         }
         let mut has_signals = false;
+        // The data block of a channel that the machine does not have can be one of the program.
+        let has_machine = areas.link().is_some();
         for channel in 1..=10 {
-            if has_auxiliary_functions(areas, channel) {
+            if has_auxiliary_functions(areas, channel, has_machine) {
                 has_signals = true;
                 self.call_auxiliary(areas, channel)?;
             }
@@ -111,8 +113,10 @@ impl Cpu {
 }
 
 /// Whether a channel has output an auxiliary function: a change bit of DB21.DBB58, or of 60 to 65.
-fn has_auxiliary_functions<A: Areas>(areas: &A, channel: u8) -> bool {
-    let bytes = areas.block(20 + u16::from(channel)).and_then(|block| areas.read::<8>(block, 58));
+/// The data block of a channel that the machine does not have can be one of the program.
+fn has_auxiliary_functions<A: Areas>(areas: &A, channel: u8, has_machine: bool) -> bool {
+    let block = areas.block(20 + u16::from(channel)).filter(|block| !has_machine || areas.is_interface(*block));
+    let bytes = block.and_then(|block| areas.read::<8>(block, 58));
     // DBB59 says which M functions are not decoded, which is no change.
     bytes.is_some_and(|bytes| bytes.iter().enumerate().any(|(index, byte)| index != 1 && *byte != 0))
 }

@@ -1,6 +1,6 @@
 //! FC 15 (POS_AX) and FC 16 (PART_AX) of the powerline, on the function of FC 18; FC 9 (ASUP).
 
-use crate::plc::step7::engine::{Areas, Cpu, Fault};
+use crate::plc::step7::engine::{Areas, Cpu, Fault, Spot, Where};
 use crate::plc::step7::instruction::Width;
 
 use super::spindles::SpindleCall;
@@ -68,10 +68,14 @@ impl Cpu {
         for (index, value) in (3..).zip([false, false, false, start]) {
             self.set_output(areas, index, Width::Bit, value.into())?;
         }
-        if let Some(link) = areas.link()
-            && let Some(byte) = link.blocks.get_mut(19).and_then(|block| block.get_mut(45))
-        {
-            *byte = *byte & 0xF0 | u8::from(start) << 3;
+        let Some(block) = areas.block(19) else { return Ok(()) };
+        for (bit, value) in [(0, false), (1, false), (2, false), (3, start)] {
+            let spot = Spot { at: Where::Block(block), bit: 45 * 8 + bit };
+            let before = self.read_bit(areas, spot)?;
+            if before != value {
+                self.note_called(areas, spot, 1, (before.into(), value.into()));
+                self.write_bit(areas, spot, value)?;
+            }
         }
         Ok(())
     }

@@ -1,6 +1,12 @@
 //! FC 18 (SpinCtrl) for STEP 7 programs: one state for each axis.
 
-use crate::plc::step7::engine::{Areas, Cpu, Fault};
+use std::mem::offset_of;
+use std::ops::Range;
+
+use zerocopy::IntoBytes;
+
+use crate::image::{AxisFromNck, FromNck};
+use crate::plc::step7::engine::{Areas, Cpu, Fault, Named};
 use crate::plc::step7::instruction::Width;
 use crate::plc::{SpinCtrl, SpinCtrlInputs, SpinCtrlOutputs};
 use crate::units::AxisNumber;
@@ -41,10 +47,26 @@ impl Cpu {
             let &SpindleCall { start, stop, function, mode, position, feedrate, .. } = call;
             let inputs = SpinCtrlInputs { start, stop, function, mode, axis, position, feedrate };
             let done = spindles[place].1.run(&mut link, &inputs);
+            if let Some(before) = self.observed.as_mut().map(|observed| std::mem::take(&mut observed.from_nck[0])) {
+                let range = block_of(axis);
+                let first = u32::try_from(range.start * 8).unwrap_or(0);
+                let now = &link.from_nck.as_bytes()[range.clone()];
+                self.note_changed(before.get(range).unwrap_or_default(), now, |bit| Some(Named::FromNck(first + bit)));
+                if let Some(observed) = &mut self.observed {
+                    observed.from_nck[0] = before;
+                }
+            }
             return (done, link.from_nck.axis(axis).positioning_active());
         }
         (if call.start { NO_AXIS } else { SpinCtrlOutputs::default() }, false)
     }
+}
+
+/// The bytes of an axis among the signals of the NCK.
+fn block_of(axis: AxisNumber) -> Range<usize> {
+    let length = size_of::<AxisFromNck>();
+    let first = offset_of!(FromNck, axes) + usize::from(axis.number() - 1) * length;
+    first..first + length
 }
 
 /// The inputs of a call, with the number of its axis.

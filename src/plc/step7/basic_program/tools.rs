@@ -3,7 +3,7 @@
 //! The simulated NC has no tool management: the jobs in DB71 to DB73 are set by a test, as the NC would set them. A report that a job is done or
 //! cancelled ends it: the active bit of its interface goes.
 
-use crate::plc::step7::engine::{Areas, Cpu, Fault};
+use crate::plc::step7::engine::{Areas, Cpu, Fault, Spot, Where};
 use crate::plc::step7::instruction::Width;
 
 /// Status of FC 8: the job is done, or cancelled.
@@ -54,12 +54,12 @@ impl Cpu {
             _ => return Err(NO_TASK),
         };
         let index = number.checked_sub(1).filter(|index| *index < 16).ok_or(NO_TASK)?;
-        let link = areas.link().ok_or(NO_TASK)?;
-        let byte = link.blocks.get_mut(block).and_then(|block| block.get_mut((index / 8) as usize)).ok_or(NO_TASK)?;
-        let mask = 1 << (index % 8);
-        let is_active = *byte & mask != 0;
+        let tasks = areas.block(block).ok_or(NO_TASK)?;
+        let spot = Spot { at: Where::Block(tasks), bit: index };
+        let is_active = self.read_bit(areas, spot).map_err(|_| NO_TASK)?;
         if is_active && ends {
-            *byte &= !mask;
+            self.note_called(areas, spot, 1, (1, 0));
+            self.write_bit(areas, spot, false).map_err(|_| NO_TASK)?;
             self.state.basic.ended_tasks[block as usize - 71] |= 1 << index;
         }
         // The call repeats its report while Start is 1.

@@ -127,6 +127,26 @@ fn fb2_reads_a_variable_after_the_next_fc2() {
     assert_eq!(run("", 0, vec![(r5(6), 1.25)]), (vec![0, 1, 0], 7, real(7.5)), "NCKomm is 0");
 }
 
+/// P-136: State 5: the value is a REAL, and RD1 has 2 bytes, or a type without a number.
+#[test]
+fn fb2_reports_a_format_that_does_not_fit() {
+    for target in ["P#DB120.DBX 10.0 BYTE 2", "P#DB120.DBX 10.0 CHAR 4"] {
+        let cyclic = format!(
+            "CALL FC 2; CALL FB 2, DB 130 ( Req := M 0.0, NumVar := 1, Addr1 := P#DB120.DBX 0.0 BYTE 10, \
+             Error := M 1.0, NDR := M 1.1, State := MW 2, RD1 := {target} );"
+        );
+        let mut bench = Bench::with_axes(&["X"]);
+        bench.nc.values = vec![(r5(6), 1.25)];
+        let startup = "CALL FB 1, DB 7 ( NCKomm := TRUE );";
+        let mut program = start(&mut bench, &format!("{ADDRESS}{}", blocks(startup, &cyclic)));
+        bench.set("M0.0", 1);
+        bench.scan(&mut program).unwrap();
+        bench.scan(&mut program).unwrap();
+        // The high byte is the number of the variable.
+        assert_eq!((bench.get("MB1"), bench.get("MW2")), (1, 0x0105), "{target}");
+    }
+}
+
 #[test]
 fn fb3_orders_that_a_variable_is_written() {
     let cyclic = "CALL FC 2; CALL FB 3, DB 130 ( Req := M 0.0, NumVar := MW 4, Addr1 := P#DB120.DBX 0.0 BYTE 10, \
@@ -160,6 +180,24 @@ fn fb4_selects_a_program() {
     assert_eq!(bench.get("MB1"), 2);
     let first = NcOrder::SelectProgram(ChannelNumber::FIRST, "/_N_MPF_DIR/PART.MPF".to_owned());
     assert_eq!(bench.nc.orders, [first], "the first path that the control knows");
+}
+
+/// P-137: without a service, and with an empty text, State is 11.
+#[test]
+fn fb4_without_a_service_is_an_error() {
+    let text = "DATA_BLOCK DB 120\nSTRUCT\nempty : STRING [8];\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n";
+    for service in ["", "PIService := DB120.empty,"] {
+        let cyclic = format!(
+            "CALL FC 2; CALL FB 4, DB 130 ( Req := M 0.0, {service} Unit := 1, Error := M 1.0, Done := M 1.1, State := MW 2 );"
+        );
+        let mut bench = Bench::with_axes(&["X"]);
+        let startup = "CALL FB 1, DB 7 ( NCKomm := TRUE );";
+        let mut program = start(&mut bench, &format!("{text}{}", blocks(startup, &cyclic)));
+        bench.set("M0.0", 1);
+        bench.scan(&mut program).unwrap();
+        bench.scan(&mut program).unwrap();
+        assert_eq!((bench.get("MB1"), bench.get("MW2")), (1, 11), "{service}");
+    }
 }
 
 /// P-138: a report ends the task of its interface; a second one without a task is an error.

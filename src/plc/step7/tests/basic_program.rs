@@ -52,6 +52,37 @@ fn fb1_sets_its_outputs_and_needs_no_source_of_its_instance() {
     assert_eq!(bench.get("MB14"), 1, "axis 2 exists, axis 3 does not");
 }
 
+/// P-155: MD10010 is 1 for the channels 1 and 3.
+#[test]
+fn fb1_counts_the_channels_that_exist() {
+    let startup = "CALL FB 1, DB 7 (); L DB7.MaxChan; T MW 10; \
+        A DB7.ActivChan[1]; = M 14.0; A DB7.ActivChan[2]; = M 14.1; A DB7.ActivChan[3]; = M 14.2;";
+    let group = |line| (NcVariable { module: 0x1A, column: 10_010, line, ..NcVariable::default() }, 1.0);
+    for (values, wanted) in [(vec![], (1, 0b001)), (vec![group(1), group(3)], (3, 0b101))] {
+        let mut bench = Bench::with_axes(&["X"]);
+        bench.nc.values = values;
+        let text = format!("DATA_BLOCK DB 7\nFB 1\nBEGIN\nEND_DATA_BLOCK\n{}", blocks(startup, "NOP 0;"));
+        start(&mut bench, &text);
+        assert_eq!((bench.get("MW10"), bench.get("MB14")), wanted);
+    }
+}
+
+/// P-151: DB38 is of axis 8, which does not exist: it has its values and its length. DB31 is of axis X.
+#[test]
+fn the_block_of_an_axis_that_is_not_there_is_one_of_the_program() {
+    let block = |number: u16| {
+        format!(
+            "DATA_BLOCK DB {number}\nSTRUCT\na : ARRAY [0 .. 299] OF WORD := 300 (W#16#1234);\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n"
+        )
+    };
+    let cyclic =
+        "L DB38.DBW 598; T MW 10; L W#16#77; T DB38.DBW 60; L DB31.DBW 60; T MW 12; OPN DB 38; L DBLG; T MW 14;";
+    let (mut bench, mut program) = started(&format!("{}{}{}", block(31), block(38), blocks("", cyclic)));
+    bench.scan(&mut program).unwrap();
+    assert_eq!((bench.get("MW10"), bench.get("MW12"), bench.get("MW14")), (0x1234, 0, 600));
+    assert_eq!((bench.get("DB38.DBW60"), bench.get("DB38.DBW0"), bench.get("DB31.DBB0")), (0x77, 0x1234, 0));
+}
+
 /// P-133: integers from byte 0, then bytes, then REALs, each part at an even byte.
 #[test]
 fn fb1_fills_db20_with_the_machine_data_for_the_plc() {

@@ -232,14 +232,17 @@ fn wrong_calls_are_refused_with_their_names() {
     for (statement, wanted) in [
         ("CALL FC 1 ( a := 1, RET_VAL := MW 2 );", "the parameter `b` of FC1 is missing"),
         ("CALL FC 1 ( a := 1, b := 2, c := 3, RET_VAL := MW 2 );", "FC1 has no parameter `c`"),
-        ("CALL FC 1 ( a := M 0.0, b := 2, RET_VAL := MW 2 );", "expected an operand of the width word"),
-        ("CALL FC 1 ( a := 1.5, b := 2, RET_VAL := MW 2 );", "expected a INT for `a`"),
-        ("CALL FC 1 ( a := 1, b := 2, RET_VAL := 3 );", "`RET_VAL` needs an operand that can be written"),
+        ("CALL FC 1 ( a := M 0.0, b := 2, RET_VAL := MW 2 );", "expected an operand of the width word, found M 0.0"),
+        ("CALL FC 1 ( a := 1.5, b := 2, RET_VAL := MW 2 );", "expected a INT for `a`, found 1.5e0"),
+        (
+            "CALL FC 1 ( a := 1, b := 2, RET_VAL := 3 );",
+            "expected an operand that can be written for `RET_VAL`, found 3",
+        ),
         ("CALL FC 202;", "FC202 is called and is nowhere"),
         ("CALL SFC 99;", "SFC99 is not built in"),
-        ("CALL FB 1;", "expected an instance data block"),
-        ("CALL DB 10;", "DB10 cannot be called"),
-        ("UC SFC 20;", "SFC20 has parameters"),
+        ("CALL FB 1;", "expected an instance data block behind FB1, found no operand"),
+        ("CALL DB 10;", "expected an FC, FB, SFC or SFB, found DB10"),
+        ("UC SFC 20;", "expected a block without parameters, found SFC20"),
     ] {
         let found = findings(&format!("{ADD}\n{}", super::ob1(statement)));
         assert_eq!(found.len(), 1, "{statement}: {found:#?}");

@@ -199,15 +199,15 @@ fn what_is_left_out_is_listed_once() {
         ]
     );
     assert!(compiled.program.is_some());
-    assert!(findings(&ob1("CALL SFC 51;"))[0].contains("a.awl:13:1: OB1, network 1: SFC51 is not built in"));
+    assert!(findings(&ob1("CALL SFC 53;"))[0].contains("a.awl:13:1: OB1, network 1: SFC53 is not built in"));
     let ignored = Settings { ignores_missing: true, ..Settings::default() };
-    let compiled = compile(&[Source::statements("a.awl", ob1("CALL FC 99;\nCALL FC 99;\nCALL SFC 51;"))], &ignored);
+    let compiled = compile(&[Source::statements("a.awl", ob1("CALL FC 99;\nCALL FC 99;\nCALL SFC 53;"))], &ignored);
     let remarks: Vec<_> = compiled.remarks.iter().map(ToString::to_string).collect();
     assert_eq!(
         remarks,
         [
             "a.awl:13:1: OB1, network 1: FC99 is nowhere: its calls are left out",
-            "a.awl:15:1: OB1, network 1: SFC51 is not built in: its calls are left out",
+            "a.awl:15:1: OB1, network 1: SFC53 is not built in: its calls are left out",
         ]
     );
 }

@@ -13,6 +13,8 @@ mod instructions;
 mod interface;
 mod interrupts;
 mod observed;
+mod rare;
+mod rules;
 mod saved;
 mod system;
 mod timers;
