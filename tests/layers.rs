@@ -185,6 +185,7 @@ const USES_SINUMERIK_IMAGE: &[&str] = &[
     "src/plc/closure.rs",
     "src/plc/io.rs",
     "src/plc/link.rs",
+    "src/plc/step7/basic_program/spindles.rs",
     "src/s7/nck/",
     "src/s7/tests/",
     "src/variables/axis_value.rs",

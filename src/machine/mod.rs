@@ -30,6 +30,7 @@ mod queue;
 mod saved;
 mod state;
 mod step;
+mod stop;
 mod written;
 
 pub use crate::control::FunctionGenerator;

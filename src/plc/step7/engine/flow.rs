@@ -8,7 +8,7 @@ use crate::plc::step7::instruction::{Accumulators, CopySource, Jump, Op, Operand
 
 use super::access::Where;
 use super::arithmetic::{Sets, convert};
-use super::contacts::local;
+use super::bit_operations::local;
 use super::cpu::Cpu;
 use super::memory::{Area, Areas};
 use super::origin::{Flow, Origin};
@@ -110,9 +110,7 @@ impl Cpu {
             Op::Compare(..) => {
                 let origin = flow.accu[0].and(&flow.accu[1]);
                 flow.set_codes(origin.clone());
-                if origin.reads().is_some() {
-                    flow.remember(pc, origin);
-                }
+                flow.remember(pc, origin);
             }
             Op::Transfer(width, to) => {
                 let origin = if self.work.mcr.is_off() { Origin::constant() } else { flow.accu[0].clone() };

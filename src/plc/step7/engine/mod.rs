@@ -2,6 +2,7 @@
 
 mod access;
 mod arithmetic;
+mod bit_operations;
 mod calls;
 mod contacts;
 mod cpu;
@@ -29,7 +30,7 @@ pub use memory::{Area, Areas, OpenBlock, OwnMemory};
 pub use registers::{Registers, Status};
 
 pub(in crate::plc::step7) use access::{Spot, Where};
-pub(in crate::plc::step7) use contacts::text_of;
+pub(in crate::plc::step7) use bit_operations::text_of;
 pub(in crate::plc::step7) use hours_meter::HoursMeter;
 pub(in crate::plc::step7) use interrupts::{Delay, Period, TimeOfDay};
 pub(in crate::plc::step7) use observe::{Kind, kind};

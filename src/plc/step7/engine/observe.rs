@@ -9,7 +9,7 @@ use crate::plc::step7::instruction::{Condition, CopySource, Instance, Jump, Op, 
 use crate::plc::step7::system::{SYSTEM, System};
 
 use super::access::{Spot, Where};
-use super::contacts::local;
+use super::bit_operations::local;
 use super::cpu::Cpu;
 use super::flow::width_of;
 use super::memory::{Area, Areas};

@@ -6,7 +6,8 @@ use arrayvec::ArrayVec;
 
 use crate::plc::step7::instruction::{CopySource, Jump, Logic, Op, Operand, Space};
 
-use super::contacts::{Contact, local};
+use super::bit_operations::local;
+use super::contacts::Contact;
 use super::cpu::Cpu;
 use super::flow::width_of;
 use super::memory::Areas;

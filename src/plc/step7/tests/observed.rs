@@ -251,6 +251,21 @@ fn bits_are_followed_through_parameters_of_functions() {
     assert_eq!(seen(&mut plc), [(q(0), vec![(Named::Block(10, 0), true), (i(0), true)])]);
 }
 
+/// The same comparison runs twice in a scan: what it compared the first time is no reason the second time.
+#[test]
+fn a_statement_that_runs_again_forgets_what_it_compared() {
+    let text = "FUNCTION FC 1 : VOID\nBEGIN\nL 5; >I; = Q 0.0;\nEND_FUNCTION\n\
+        ORGANIZATION_BLOCK OB 1\nBEGIN\nL MW 30; UC FC 1; L STW; UC FC 1;\nEND_ORGANIZATION_BLOCK\n";
+    let mut plc = Plc::new(text);
+    plc.cpu.observe();
+    // 3 is not above 5; the status word is CC0 then, 64.
+    plc.memory.flags[31] = 3;
+    let all = seen(&mut plc);
+    let [(place, tested)] = &all[..] else { panic!("{all:?}") };
+    assert_eq!(*place, q(0));
+    assert!(matches!(tested[..], [(Named::Operation(_), true)]), "{tested:?}");
+}
+
 /// In a zone of the MCR that is off, 0 is written whatever the logic says.
 #[test]
 fn the_logic_is_no_reason_in_a_zone_of_the_mcr_that_is_off() {
