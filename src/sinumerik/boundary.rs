@@ -2,6 +2,8 @@
 
 use std::any::Any;
 
+use zerocopy::IntoBytes;
+
 use crate::control::{
     Activated, Changes, ChartPosition, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner,
     PlcSide, Question, Taken, Texts,
@@ -120,21 +122,18 @@ impl Control for Nck {
         Some(format!("user alarm {alarm} stops the PLC (MD14516 bit 4)"))
     }
 
-    /// The basic program no longer transfers them: they are 0. Measuring systems and pulse enables stay, so that the axes can brake (P-150).
+    /// The basic program no longer transfers them: they are 0. Measuring systems and pulse enables stay, so that the axes can brake, and so do
+    /// user alarms (P-150).
     fn neutralise(&self, to_nck: &mut [u8]) -> bool {
         let Some(signals) = ToNck::of_bytes_mut(to_nck) else { return false };
-        let kept = AxisNumber::all().map(|axis| {
-            let of = signals.axis(axis);
-            (axis, [of.position_measuring_system_1(), of.position_measuring_system_2(), of.pulse_enable()])
-        });
-        let kept: Vec<_> = kept.filter(|(_, kept)| kept.contains(&true)).collect();
-        to_nck.fill(0);
-        if let Some(signals) = ToNck::of_bytes_mut(to_nck) {
-            for (axis, [first, second, pulses]) in kept {
-                signals.axis(axis).set_position_measuring_system_1(first);
-                signals.axis(axis).set_position_measuring_system_2(second);
-                signals.axis(axis).set_pulse_enable(pulses);
-            }
+        let before = signals.clone();
+        signals.as_mut_bytes().fill(0);
+        signals.user_alarms = before.user_alarms;
+        for (axis, kept) in before.axes.iter() {
+            let signals = signals.axis(axis);
+            signals.set_position_measuring_system_1(kept.position_measuring_system_1());
+            signals.set_position_measuring_system_2(kept.position_measuring_system_2());
+            signals.set_pulse_enable(kept.pulse_enable());
         }
         true
     }
