@@ -73,13 +73,13 @@
 //! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `monitor`, `nc_program`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
-//! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |
+//! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `image`, `live`, `machine`, `source`, `units`, `variables` |
 //! | [`web`] | the live page: a machine in real time in a browser (feature `web`) | `control`, `image`, `live`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`symbol_files`] | the signals of a machine as files of other tools: Node-RED, python-snap7, TIA Portal, STEP 7 (feature `cli`) | `image` |
 //! | [`cli`] | the command line: its arguments, and the construction of all other parts (feature `cli`) | all |
 //!
 //! Every module works for any control, except these, which are for the SINUMERIK on purpose: [`sinumerik`], the tables in [`image`] that
-//! have its name, the built-in programs of [`plc`], which name its signals, and the NC variables of `s7::nck`. `tests/layers.rs` keeps the
+//! have its name, the built-in programs of [`plc`], which name its signals, and the NC variables of `variables::nc`. `tests/layers.rs` keeps the
 //! list of files that may use its structures.
 //!
 //! # The order of a step
@@ -146,7 +146,7 @@
 //! | a scenario | a `.toml` file below `golden/<area>/`; then review and accept its trace | the `.snap` file beside it |
 //! | a server for other clients | a folder in `src` that uses [`live::Handle`] and no other item of `live`; `tests/serve/another_server.rs` has a small example | consistent reads of one step, orders that are executed as a whole and recorded |
 //! | a symbol file for another tool | a function in `symbol_files/`, a value of `Format` there and in `cli/signals/files.rs` | `opennck signals --format`; read it back in `tests/foreign` |
-//! | an NC variable for clients | a row in `s7/nck/catalogue.rs` | its value by area, module, column and line |
+//! | an NC variable for clients | a row in `variables/nc/catalogue.rs` | its value for S7 and OPC UA clients |
 //! | a module | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
 
 #[cfg(feature = "cli")]

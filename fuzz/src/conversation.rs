@@ -11,12 +11,12 @@
 use std::borrow::Cow;
 
 use opennck::image::{Bytes, DataBlock, Memory, Names, Profile};
-use opennck::s7::nck::{Datum, MachineData};
 use opennck::s7::{
     Answers, Bridge, Command, Connection, CpuState, DateAndTime, Diagnosis, Directory, Machinery, Protection, Session,
     Settings,
 };
 use opennck::units::{AxisNumber, ChannelNumber, Time};
+use opennck::variables::nc::{Datum, MachineData};
 use opennck::variables::{Place, Variables};
 
 use super::oracle::{Expected, Listener, Shadow, packet_length};

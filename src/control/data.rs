@@ -33,6 +33,11 @@ pub trait Data {
     /// The stored value `index` of the datum `number` of `owner`; `None` if there is no such value.
     fn stored(&self, number: u32, owner: Owner, index: u8) -> Option<Datum>;
 
+    /// The number of the datum with this identifier, with its prefix. The default is a control without identifiers.
+    fn number(&self, _identifier: &str) -> Option<u32> {
+        None
+    }
+
     /// A text datum, for example the name of an axis or channel; `None` if there is no such text.
     fn text(&self, number: u32, owner: Owner, index: u8) -> Option<&str>;
 

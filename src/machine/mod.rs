@@ -25,6 +25,7 @@ mod delay;
 mod describe;
 mod nc_services;
 mod open;
+mod panel;
 mod plc;
 mod queue;
 mod saved;
@@ -41,6 +42,7 @@ pub use crate::plant::{Fault, FaultKind, Switch};
 pub use command::{Command, PlcOrder};
 pub use conditions::{Subject, Tested};
 pub use open::OpenOptions;
+pub use panel::Panel;
 pub use saved::Snapshot;
 
 use std::collections::BTreeMap;

@@ -6,7 +6,7 @@
 
 use super::command::Command;
 use super::directory::Directory;
-use super::nck::{self, ControlValues, MachineData};
+use super::nck;
 use super::protected::Protected;
 use super::station::{
     Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Write, WrittenValue,
@@ -16,6 +16,7 @@ use super::wire::date_and_time::DateAndTime;
 use super::wire::items::{DriveItem, NckItem};
 use crate::image::{Address, Area, Format, Location, Memory, Names, Width};
 use crate::variables::Variables;
+use crate::variables::nc::{ControlValues, MachineData, View};
 
 /// The data of a machine besides its memory and variables.
 #[derive(Clone, Copy)]
@@ -101,14 +102,14 @@ impl<'a> Bridge<'a> {
         self.commands
     }
 
-    fn nck(&self) -> nck::View<'_> {
-        nck::View {
+    fn nck(&self) -> View<'_> {
+        View {
             memory: self.memory,
             variables: self.variables,
             names: self.names,
             machine_data: self.machinery.machine_data,
             control: self.machinery.control,
-            clock: self.machinery.clock,
+            clock: nck::clock_time(self.machinery.clock),
             serial_number: self.machinery.identity.serial_number,
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! [`wire`] has the formats. [`Session`] is the conversation with one client without a socket (bytes in, answers out), and [`Station`] is
 //! the data that it serves. [`Bridge`] is the station of this simulator: it reads the [`Memory`](crate::image::Memory) of one step, and
-//! collects commands for the start of the next step. [`nck`] is the catalogue of NC variables.
+//! collects commands for the start of the next step. [`variables::nc`](crate::variables::nc) is the catalogue of
+//! NC variables.
 //!
 //! ```
 //! use opennck::image::{Memory, Names};
@@ -22,7 +23,6 @@
 //! A session uses no clock and no socket: the time comes from [`Session::tick`], bytes from [`Session::receive`]. [`server`] does both for
 //! many clients; [`live`] is the server of a machine in real time.
 
-pub mod nck;
 pub mod wire;
 
 mod bridge;
@@ -30,6 +30,7 @@ pub mod client;
 mod command;
 mod directory;
 pub mod live;
+mod nck;
 mod protected;
 pub mod server;
 mod session;

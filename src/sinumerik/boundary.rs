@@ -12,7 +12,7 @@ use crate::image::{FromNck, Hmi, Names, NckHmi, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
 use crate::nc_program::Program;
 use crate::sinumerik::jog::state::HANDWHEELS;
-use crate::sinumerik::machine_data::Target;
+use crate::sinumerik::machine_data::{Target, by_identifier};
 use crate::sinumerik::nck::{Nck, shown};
 use crate::sinumerik::texts::TEXTS;
 use crate::sinumerik::user::state::UserReaction;
@@ -310,6 +310,10 @@ impl Data for Nck {
     fn named(&self, target: &str) -> Option<DatumValue> {
         let target = Self::stored(self).parse_target(target).ok()?;
         Some(shown(Self::stored(self), &target))
+    }
+
+    fn number(&self, identifier: &str) -> Option<u32> {
+        by_identifier(identifier).filter(|datum| datum.full_identifier() == identifier).map(|datum| datum.number)
     }
 
     fn text(&self, number: u32, owner: Owner, index: u8) -> Option<&str> {

@@ -9,6 +9,7 @@ mod channel_values;
 mod events;
 mod happening;
 mod named_value;
+pub mod nc;
 mod place;
 mod r_parameters;
 

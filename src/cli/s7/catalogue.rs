@@ -3,8 +3,8 @@
 use crate::cli::list::{Format, List};
 use crate::cli::output::Output;
 use crate::s7::client::{NcVariable, Variable};
-use crate::s7::nck::CATALOGUE;
 use crate::source::Problem;
+use crate::variables::nc::CATALOGUE;
 
 /// How many similar names are suggested.
 const NEAREST: usize = 3;

@@ -17,8 +17,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::Error;
-use crate::s7::nck::{CATALOGUE, Kind, Variable as Row};
 use crate::s7::wire::items::{MeasuringSystem, NckItem};
+use crate::variables::nc::{CATALOGUE, Kind, Variable as Row};
 
 /// Rows of a variable of the NCK.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,6 +15,8 @@
 
 use std::path::Path;
 
+use crate::image::Profile;
+use crate::machine::Machine;
 use crate::s7::Identity;
 use crate::source::{Node, Problem, Table, read_text};
 
@@ -90,6 +92,18 @@ fn version(node: &Node) -> Result<[u8; 3], Problem> {
     let wrong = || node.expected("a version of three numbers up to 255", "write it as \"3.2.6\"");
     let numbers: Option<Vec<u8>> = node.text("a version")?.split('.').map(|number| number.parse().ok()).collect();
     numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(wrong)
+}
+
+/// The identification of the PLC of a control. The PLC of a control that is not a SINUMERIK is only that of a simulator.
+pub(super) fn identity(machine: &Machine) -> Identity<'static> {
+    let profile = machine.names().profile;
+    if profile == Profile::SINUMERIK_840D_SL {
+        Identity::SINUMERIK_840D_SL
+    } else if profile == Profile::SINUMERIK_828D {
+        Identity::SINUMERIK_828D
+    } else {
+        Identity::SIMULATOR
+    }
 }
 
 #[cfg(test)]

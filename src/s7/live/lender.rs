@@ -7,10 +7,10 @@ use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::clock::{from_date_and_time, to_date_and_time};
-use super::panel::{Panel, identity, machine_datum};
+use super::identity::identity;
 use super::terms::Terms;
 use crate::live::{Entry, Event, Handle, Order, Seen};
-use crate::machine;
+use crate::machine::{self, Panel};
 use crate::s7::server::Stations;
 use crate::s7::{Bridge, Command, CpuState, Diagnosis, Directory, Machinery, Restart, Station};
 
@@ -125,7 +125,7 @@ fn order(client: Option<SocketAddr>, commands: Vec<Command>, machine: &machine::
         order.commands.push(match command {
             Command::Write { location, value } => machine::Command::Write { location, value },
             Command::MachineDatum { place, number, index, value } => {
-                match machine_datum(machine, place, number, index, value) {
+                match Panel(machine).store(place, number, index, value) {
                     Ok(command) => command,
                     Err(problem) => {
                         tracing::info!("rejected a command of a client: {problem}");

@@ -21,7 +21,6 @@ mod identity;
 mod lender;
 mod live_server;
 mod metrics;
-mod panel;
 mod protect;
 mod terms;
 

@@ -1,6 +1,7 @@
 //! The terms for S7 clients: protected addresses, functions that need a password, and the identification of the CPU.
 
-use super::identity::OwnIdentity;
+use super::identity::{OwnIdentity, identity};
+use crate::machine::Machine;
 use crate::s7::{Machinery, Protected, Protection};
 
 /// Protection and identification of the CPU. The default protects nothing.
@@ -22,6 +23,12 @@ impl Default for Terms {
 }
 
 impl Terms {
+    /// The serial number of the CPU of a machine.
+    #[must_use]
+    pub fn serial_number<'a>(&'a self, machine: &Machine) -> &'a str {
+        self.identity.over(identity(machine)).serial_number
+    }
+
     /// Applies these terms to a machine.
     pub(super) fn over<'a>(&'a self, machinery: Machinery<'a>) -> Machinery<'a> {
         Machinery {

@@ -1,5 +1,4 @@
-//! Drive values. A simulated drive has the actual speed of its motor. Torque, current and temperatures are not modelled, so these variables
-//! do not exist. Values are big-endian in all forms of request.
+//! Drive values as bytes of S7. Values are big-endian in all forms of request.
 //!
 //! | request | value |
 //! |---|---|
@@ -7,13 +6,13 @@
 //! | area V, module `1A`, column `06AB` | MD1707, actual speed of a powerline drive in rev/min |
 //! | syntax `A2`, parameter 21 | `r0021` of a drive object |
 //!
-//! Choices: a drive has the number of its axis. Drive object 1 is the control unit and 2 is the infeed; the drives follow from 3 on in the
-//! order of the axes. There are no main drives, because there are no spindles.
+//! Choices: drive object 1 is the control unit and 2 is the infeed; the drives follow from 3 on in the
+//! order of the axes.
 
-use super::{Shown, View, values};
 use crate::s7::wire::data::Refusal;
 use crate::s7::wire::items::DriveItem;
 use crate::units::AxisNumber;
+use crate::variables::nc::{Shown, View, motor_speed};
 
 /// `r0021`.
 pub(super) const ACTUAL_SPEED: u16 = 21;
@@ -22,12 +21,6 @@ pub(super) const ACTUAL_SPEED: u16 = 21;
 const FIRST_DRIVE: u16 = 3;
 /// The code of REAL as the type of a drive item.
 const REAL: u8 = 8;
-
-/// The motor speed of a drive; it has one line.
-pub(super) fn speed<'a>(view: &View<'a>, drive: u8, line: u16) -> Option<Shown<'a>> {
-    let axis = values::axis_number(view, drive.into())?;
-    (line == 1).then_some(Shown::Number(view.control?.motor_speed(axis)))
-}
 
 /// Encodes a value in four bytes.
 #[expect(clippy::cast_possible_truncation, reason = "a drive value has single precision")]
@@ -45,7 +38,7 @@ pub(in crate::s7) fn read(view: &View<'_>, item: &DriveItem, into: &mut Vec<u8>)
     if item.parameter != ACTUAL_SPEED {
         return Err(Refusal::DoesNotExist);
     }
-    let Some(Shown::Number(value)) = speed(view, axis.number(), 1) else {
+    let Some(Shown::Number(value)) = motor_speed(view, axis.number(), 1) else {
         return Err(Refusal::DoesNotExist);
     };
     match (item.kind, item.count, item.index) {

@@ -17,9 +17,9 @@ use proptest::sample::Index;
 use super::station::{CpuState, Diagnosis, Protection};
 use super::{Answers, Bridge, Command, Connection, DateAndTime, Directory, Machinery, Session, Settings};
 use crate::image::{Bytes, DataBlock, Memory, Names, Profile};
-use crate::s7::nck::{ControlValues, MachineData};
 use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::Variables;
+use crate::variables::nc::{ControlValues, MachineData};
 
 /// Connection request of snap7: TPDU 1024, TSAPs 0100 and 0102.
 const CONNECT: &str = "03 00 00 16 11 E0 00 00 00 01 00 C0 01 0A C1 02 01 00 C2 02 01 02";

@@ -6,9 +6,8 @@ use std::collections::BTreeSet;
 use super::{Client, hex};
 use crate::image::{FromNck, Memory};
 use crate::s7::Command;
-use crate::s7::nck::{CATALOGUE, ControlValues, Datum, MachineData};
-use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position, Time};
+use crate::variables::nc::{CATALOGUE, ControlValues, Datum, MachineData, Refused};
 use crate::variables::{AlarmNumber, Parameter, Place, RaisedAlarm};
 
 /// A client of a machine with X at 100 mm, Y at -0.5 mm, and three alarms: first 20000 at 1 s, then 10652 and 10653 at 3 s.
@@ -423,10 +422,10 @@ impl MachineData for Data {
     }
 
     /// MD30240 is 0 to 5, and MD34000 is read-only.
-    fn may_store(&self, _: Place, number: u16, _: u16, value: f64) -> Result<(), Refusal> {
+    fn may_store(&self, _: Place, number: u16, _: u16, value: f64) -> Result<(), Refused> {
         match number {
-            30240 if value > 5.0 => Err(Refusal::OutOfRange),
-            34000 => Err(Refusal::NotAllowed),
+            30240 if value > 5.0 => Err(Refused::OutOfRange),
+            34000 => Err(Refused::NotAllowed),
             _ => Ok(()),
         }
     }

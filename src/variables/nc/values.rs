@@ -1,9 +1,8 @@
 //! The values of the catalogue. A control without a running program shows no tool (T0), no program name and no program state; so does this
 //! one. A geometry axis is the machine axis with the same number.
 
-use super::{ControlValues, Datum, Shown, View};
+use super::{ControlValues, Datum, Kind, Refused, Shown, Variable, View};
 use crate::image::{AxisFromNck, Block, ChannelFromNck, ChannelToNck};
-use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{AxisValues, Place};
 
@@ -190,11 +189,7 @@ pub(super) fn of_channel<'a>(
 
 /// The clock of the CPU in seconds since 1970.
 pub(super) fn seconds(view: &View<'_>) -> Shown<'static> {
-    /// Days from 1970 to 1990.
-    const EARLIER: u32 = 7305;
-    let clock = view.clock;
-    let of_day = u32::from(clock.hour) * 3600 + u32::from(clock.minute) * 60 + u32::from(clock.second);
-    Shown::Number(f64::from(EARLIER + clock.days()) * 86_400.0 + f64::from(of_day))
+    Shown::Number(view.clock.seconds())
 }
 
 /// Whether the axis of a row is a rotary axis: degrees are not converted to inches.
@@ -204,9 +199,26 @@ pub(super) fn is_rotary(view: &View<'_>, line: u16) -> bool {
 }
 
 /// The R parameter of a row: its channel, its number and its value.
-pub(super) fn r_parameter(view: &View<'_>, unit: u8, line: u16) -> Result<(ChannelNumber, u16, f64), Refusal> {
-    let control = view.control.ok_or(Refusal::DoesNotExist)?;
-    let channel = channel_number(view, unit).ok_or(Refusal::OutOfRange)?;
-    let value = control.r_parameter(channel, line - 1).ok_or(Refusal::OutOfRange)?;
-    Ok((channel, line - 1, value))
+///
+/// # Errors
+/// The channel or the parameter does not exist.
+pub fn r_parameter(view: &View<'_>, unit: u8, line: u16) -> Result<(ChannelNumber, u16, f64), Refused> {
+    let control = view.control.ok_or(Refused::DoesNotExist)?;
+    let channel = channel_number(view, unit).ok_or(Refused::OutOfRange)?;
+    let number = line.checked_sub(1).ok_or(Refused::OutOfRange)?;
+    let value = control.r_parameter(channel, number).ok_or(Refused::OutOfRange)?;
+    Ok((channel, number, value))
+}
+
+impl Variable {
+    /// Its value for a unit and a line, both from one; lengths in mm, or in inches. `None` if there is no such row.
+    #[must_use]
+    pub fn value<'a>(&self, view: &View<'a>, unit: u8, line: u16, is_inch: bool) -> Option<Shown<'a>> {
+        match ((self.get)(view, unit, line)?, self.kind) {
+            (Shown::Number(length), Kind::Length) if is_inch && !is_rotary(view, line) => {
+                Some(Shown::Number(length / 25.4))
+            }
+            (shown, _) => Some(shown),
+        }
+    }
 }

@@ -2,47 +2,46 @@
 
 use std::borrow::Cow;
 
-use super::View;
-use crate::s7::wire::date_and_time::DateAndTime;
+use super::{ClockTime, View};
 
 /// Modules by their number on the wire.
-pub(super) mod module {
+pub mod module {
     /// System data.
-    pub(in crate::s7::nck) const Y: u8 = 0x10;
+    pub const Y: u8 = 0x10;
     /// R parameters.
-    pub(in crate::s7::nck) const RP: u8 = 0x15;
+    pub const RP: u8 = 0x15;
     /// Machine data; for drives: those of the powerline.
-    pub(in crate::s7::nck) const M: u8 = 0x1A;
+    pub const M: u8 = 0x1A;
     /// Diagnosis.
-    pub(in crate::s7::nck) const DIAGN: u8 = 0x3B;
+    pub const DIAGN: u8 = 0x3B;
     /// Alarms by time, oldest first.
-    pub(in crate::s7::nck) const SALAC: u8 = 0x54;
+    pub const SALAC: u8 = 0x54;
     /// Geometry axes, further variables.
-    pub(in crate::s7::nck) const SEGA: u8 = 0x70;
+    pub const SEGA: u8 = 0x70;
     /// Machine axes, further variables.
-    pub(in crate::s7::nck) const SEMA: u8 = 0x71;
+    pub const SEMA: u8 = 0x71;
     /// Spindles.
-    pub(in crate::s7::nck) const SSP: u8 = 0x72;
+    pub const SSP: u8 = 0x72;
     /// Geometry axes.
-    pub(in crate::s7::nck) const SGA: u8 = 0x73;
+    pub const SGA: u8 = 0x73;
     /// Machine axes.
-    pub(in crate::s7::nck) const SMA: u8 = 0x74;
+    pub const SMA: u8 = 0x74;
     /// Alarms, newest first.
-    pub(in crate::s7::nck) const SALAL: u8 = 0x75;
+    pub const SALAL: u8 = 0x75;
     /// Alarms, highest priority first.
-    pub(in crate::s7::nck) const SALAP: u8 = 0x76;
+    pub const SALAP: u8 = 0x76;
     /// Alarms by time.
-    pub(in crate::s7::nck) const SALA: u8 = 0x77;
+    pub const SALA: u8 = 0x77;
     /// The program pointer.
-    pub(in crate::s7::nck) const SPARPP: u8 = 0x7A;
+    pub const SPARPP: u8 = 0x7A;
     /// The program.
-    pub(in crate::s7::nck) const SPARP: u8 = 0x7D;
+    pub const SPARP: u8 = 0x7D;
     /// Program modification.
-    pub(in crate::s7::nck) const SINF: u8 = 0x7E;
+    pub const SINF: u8 = 0x7E;
     /// States.
-    pub(in crate::s7::nck) const S: u8 = 0x7F;
+    pub const S: u8 = 0x7F;
     /// Parameters of SINAMICS drives.
-    pub(in crate::s7::nck) const DRIVE: u8 = 0x82;
+    pub const DRIVE: u8 = 0x82;
 }
 
 /// Areas by their number on the wire.
@@ -62,7 +61,8 @@ pub enum NckArea {
 
 impl NckArea {
     /// Its number on the wire.
-    pub(in crate::s7) const fn code(self) -> u8 {
+    #[must_use]
+    pub const fn code(self) -> u8 {
         match self {
             Self::Nck => 0,
             Self::ModeGroup => 1,
@@ -101,8 +101,8 @@ pub enum Shown<'a> {
     Number(f64),
     /// A text.
     Text(Cow<'a, str>),
-    /// A point in time; `None` is encoded as zeros.
-    Date(Option<DateAndTime>),
+    /// A point in time; `None` in a free row.
+    Date(Option<ClockTime>),
 }
 
 /// A row of the catalogue.

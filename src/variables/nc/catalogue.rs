@@ -10,13 +10,14 @@
 //! 0020) are known, but no source lists the values of the controls.
 
 use super::alarms::{self, Order};
+use super::drives::motor_speed;
 use super::values::{
     asked, axis, axis_name, axis_number, axis_signal, channel, channel_exists, channel_name, channel_status,
     count_axes, empty, feedrate, flag, geometry_axis, machine_function, measuring_system, mode, number, of_axis,
     of_channel, only, program_status, r_parameter, seconds, version, zero,
 };
 use super::variable::module;
-use super::{Kind, NckArea, Shown, Variable, drives};
+use super::{Kind, NckArea, Shown, Variable};
 use crate::image::ChannelToNck;
 use crate::variables::Alarms;
 
@@ -68,8 +69,8 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/Spindle/turnState",                Channel,   SSP,    0x0009, Word,      "F C T L", |_, _, _| None),
     row!("C/Spindle/spindleType",              Channel,   SSP,    0x000D, Word,      "F C T L", |_, _, _| None),
     // Drives; the unit is the drive number.
-    row!("V/Drive/r0021 actual speed",         FeedDrive, DRIVE,  0x0015, DriveReal, "C",       |v, d, l| drives::speed(v, d, l)),
-    row!("V/Drive/MD1707 actual speed",        FeedDrive, M,      0x06AB, DriveReal, "F",       |v, d, l| drives::speed(v, d, l)),
+    row!("V/Drive/r0021 actual speed",         FeedDrive, DRIVE,  0x0015, DriveReal, "C",       |v, d, l| motor_speed(v, d, l)),
+    row!("V/Drive/MD1707 actual speed",        FeedDrive, M,      0x06AB, DriveReal, "F",       |v, d, l| motor_speed(v, d, l)),
     // Names and numbers.
     row!("C/$MC_AXCONF_CHANAX_NAME_TAB",       Channel,   M,      0x4E70, Text(32),  "C",       |v, c, l| channel_exists(v, c).and_then(|()| axis_name(v, l))),
     row!("C/$MC_CHAN_NAME",                    Channel,   M,      0x4E20, Text(32),  "C D",     |v, c, l| only(l).and_then(|()| channel_name(v, c))),

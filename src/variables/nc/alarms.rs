@@ -15,8 +15,7 @@
 
 use arrayvec::ArrayVec;
 
-use super::{Shown, View};
-use crate::s7::wire::date_and_time::DateAndTime;
+use super::{ClockTime, Shown, View};
 use crate::variables::{Alarms, Arrival, Parameter, RaisedAlarm};
 
 /// The order of a list.
@@ -69,7 +68,7 @@ pub(super) fn clear_info<'a>(view: &View<'a>, order: Order, line: u16) -> Option
 
 pub(super) fn date<'a>(view: &View<'a>, order: Order, line: u16) -> Option<Shown<'a>> {
     let now = view.control?.time();
-    let date = |arrival: Arrival| -> DateAndTime {
+    let date = |arrival: Arrival| -> ClockTime {
         let ago = (now - arrival.time).nanos() / 1_000_000;
         view.clock.earlier(u64::try_from(ago).unwrap_or(0))
     };
