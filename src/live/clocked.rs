@@ -3,6 +3,7 @@
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use super::causes::Causes;
 use super::diagnosis::Buffer;
 use super::following::Collected;
 use super::history::History;
@@ -34,6 +35,8 @@ pub(super) struct Clocked {
     pub(super) collected: Option<Collected>,
     /// The last minutes.
     pub(super) history: Option<History>,
+    /// Why the pending alarms were raised.
+    causes: Causes,
 }
 
 /// The trace that is kept, and the most bytes of memory for it.
@@ -58,9 +61,22 @@ impl Clocked {
         });
         let set = today();
         let (diagnosis, set_at) = (Buffer::new(&machine, set), machine.time());
-        let (collected, history) = (None, None);
+        let (collected, history, causes) = (None, None, Causes::default());
         let steps = 0;
-        Self { diagnosis, set, set_at, steps, machine, recording, trace, trace_bytes, operator, collected, history }
+        Self {
+            diagnosis,
+            set,
+            set_at,
+            steps,
+            machine,
+            recording,
+            trace,
+            trace_bytes,
+            operator,
+            collected,
+            history,
+            causes,
+        }
     }
 
     /// The number of steps taken since the start.
@@ -79,7 +95,7 @@ impl Clocked {
         let clock = clock(self.set, self.machine.time() - self.set_at);
         let scenario = self.operator.as_ref().map(|operator| (operator.state().clone(), operator.index()));
         let reach = self.history.as_ref().map(History::reach);
-        Box::new(Seen { step: self.steps, machine, clock, diagnosis, scenario, reach })
+        Box::new(Seen { step: self.steps, machine, clock, diagnosis, scenario, reach, causes: self.causes.clone() })
     }
 
     /// Queues the orders of clients. Returns a log line for each command that the machine rejects.
@@ -105,7 +121,7 @@ impl Clocked {
     /// Takes one step. Returns a log line if the PLC program stopped the PLC or the PLC starts again, and if the scenario or the trace ended in
     /// this step.
     pub(super) fn step(&mut self) -> Vec<String> {
-        let Self { machine, steps, recording, trace, trace_bytes, operator, collected, history, .. } = self;
+        let Self { machine, steps, recording, trace, trace_bytes, operator, collected, history, causes, .. } = self;
         let mut lines = Vec::new();
         let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
         if was_at_work && let Some(operator) = operator {
@@ -142,6 +158,7 @@ impl Clocked {
             None if was_faulty => lines.push("the PLC starts again".to_owned()),
             Some(_) | None => {}
         }
+        causes.observe(machine);
         if let Some(collected) = collected {
             collected.extend(machine);
         }
@@ -188,6 +205,7 @@ impl Clocked {
         }
         self.machine = history.back_to(cycle)?;
         self.operator = None;
+        self.causes = Causes::default();
         self.collected = self.collected.take().map(|_| Collected::new(&self.machine));
         Ok(())
     }

@@ -9,6 +9,7 @@ use super::inbox::Order;
 use super::seen::Seen;
 use super::shared::{Pace, Return, Shared};
 use super::speed::Speed;
+use super::steps::Steps;
 use crate::scenario::Stage;
 use crate::source::Problem;
 
@@ -113,6 +114,12 @@ impl Handle {
         }
         drop(lent);
         Follower::new(Arc::clone(&self.0))
+    }
+
+    /// The machine after every step from now on, for a server that must not miss one. Any number of servers can have one.
+    #[must_use]
+    pub fn steps(&self) -> Steps {
+        self.0.readers.add()
     }
 
     /// Goes back to the end of a cycle of the last minutes, and pauses there. What happened later is forgotten; a scenario that was running

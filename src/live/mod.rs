@@ -10,7 +10,8 @@
 //! * It follows. [`Handle::over`] waits for a step by its number. A server that does not wait can look at any time.
 //! * It drives. [`Handle::pause`], [`Handle::step`] and [`Handle::set_speed`] act from the next step on; [`Handle::go_back`] returns to a
 //!   moment of the last minutes.
-//! * One server can receive everything that happens: [`Handle::follow`].
+//! * One server can receive everything that happens: [`Handle::follow`]. Any number of servers can see the machine after every step:
+//!   [`Handle::steps`].
 //! * It ends before the machine. Its owner ends the server, the server drops its handle, then the machine ends ([`Live::end`] returns the
 //!   machine only when no handle is left). If the machine ends first, [`Handle::over`] and [`Handle::taken_up`] return false at once, and
 //!   [`Handle::has_ended`] is true.
@@ -37,13 +38,14 @@
 //! ```
 //!
 //! `stepping.rs` has the thread and its schedule, `shared.rs` the data shared between threads, `clocked.rs` the machine with its clock and
-//! recording, `driving.rs` its speed and pauses, `following.rs` the record for a server that follows, `history.rs` the last minutes,
+//! recording, `driving.rs` its speed and pauses, `following.rs` the record for a server that follows, `steps.rs` every step, `history.rs` the last minutes,
 //! `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary, `opening.rs` the inputs from which a
 //! machine is opened, `record.rs` the recording. `MappedPlc` (feature `mapped`) is a PLC program in another
 //! process, `plc_process.rs` starts and ends this process for a scenario.
 
 #![expect(clippy::disallowed_methods, reason = "this module runs machines in real time")]
 
+mod causes;
 mod clocked;
 mod diagnosis;
 mod driving;
@@ -62,6 +64,7 @@ mod seen;
 mod shared;
 mod speed;
 mod stepping;
+mod steps;
 mod urgency;
 
 pub use diagnosis::{Entry, Event};
@@ -80,3 +83,4 @@ pub use seen::Seen;
 pub use shared::Pace;
 pub use speed::Speed;
 pub use stepping::{Ended, GIVE_UP, Live, LiveOptions};
+pub use steps::{Step, Steps};

@@ -8,10 +8,12 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
+use super::causes::Causes;
 use super::diagnosis::Entry;
 use super::history::Reach;
 use crate::machine::{Machine, Snapshot};
 use crate::scenario::State;
+use crate::variables::RaisedAlarm;
 
 /// The number of steps that are copied after a client has read.
 const LINGER: u32 = 1000;
@@ -25,6 +27,7 @@ pub struct Seen {
     pub(super) diagnosis: Arc<[Entry]>,
     pub(super) scenario: Option<(State, usize)>,
     pub(super) reach: Option<Result<Reach, Arc<str>>>,
+    pub(super) causes: Causes,
 }
 
 impl Seen {
@@ -51,6 +54,12 @@ impl Seen {
     #[must_use]
     pub fn scenario(&self) -> Option<(&State, usize)> {
         self.scenario.as_ref().map(|(state, index)| (state, *index))
+    }
+
+    /// Why a pending alarm was raised: the rule, and the inputs that were tested. `None` if it is not known.
+    #[must_use]
+    pub fn cause(&self, alarm: &RaisedAlarm) -> Option<&str> {
+        self.causes.of(alarm).map(|cause| &**cause)
     }
 
     /// The moments to which the machine can go back.
@@ -128,7 +137,7 @@ mod tests {
     fn seen(step: u64) -> Box<Seen> {
         let machine = Machine::open("g1_example").expect("it is a built-in machine").snapshot();
         let (clock, diagnosis) = (SystemTime::UNIX_EPOCH, Arc::new([]));
-        Box::new(Seen { step, machine, clock, diagnosis, scenario: None, reach: None })
+        Box::new(Seen { step, machine, clock, diagnosis, scenario: None, reach: None, causes: Causes::default() })
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //! and the statistics of the schedule.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::{Duration, SystemTime};
 
 use tokio::sync::{oneshot, watch};
 
@@ -13,6 +13,7 @@ use super::following::Counter;
 use super::inbox::Inbox;
 use super::seen::{Seen, View};
 use super::speed::Speed;
+use super::steps::Readers;
 use crate::source::Problem;
 
 /// How often a caller that does not wait tries the lock.
@@ -59,6 +60,8 @@ pub(super) struct Shared {
     lost: AtomicU64,
     /// Its speed, and whether it pauses.
     pub(super) driving: Driving,
+    /// The servers that need every step.
+    pub(super) readers: Arc<Readers>,
     /// Where its record is handed over.
     pub(super) counter: Counter,
     /// The request to go back in time.
@@ -83,6 +86,7 @@ impl Shared {
             worst: AtomicU64::new(0),
             lost: AtomicU64::new(0),
             driving: Driving::new(speed),
+            readers: Arc::default(),
             counter: Counter::default(),
             return_asked: Mutex::new(None),
             is_return_asked: AtomicBool::new(false),
@@ -190,10 +194,15 @@ impl Shared {
     /// Ends a step: unlocks the machine and shows the step to readers.
     pub(super) fn give_back(&self, mut clocked: MutexGuard<'_, Clocked>) {
         // Above real time few of the steps are read, and the reader copies them.
+        let copies = self.readers.listening();
+        let read: Vec<_> = (0..copies).map(|_| clocked.seen()).collect();
         let is_shown = self.is_lock_step || self.speed() <= Speed::default() && self.view.is_looked_at();
         let (step, shown) = (clocked.steps(), is_shown.then(|| clocked.seen()));
         self.hand_over(&mut clocked);
         drop(clocked);
+        if !read.is_empty() {
+            self.readers.put(read, self.speed() == Speed::default(), SystemTime::now());
+        }
         self.view.over(step, shown);
         self.steps.send_replace(step);
     }

@@ -9,7 +9,8 @@ use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity,
 
 /// The rule, its text if the inputs do not express it, and the inputs: `REF-11: MD37110[XF] = 0`,
 /// `REF-31: reference cam reached, X.deceleration_reference_point_approach = 1`.
-pub(super) fn because(event: &Event, describe: &dyn Describe) -> String {
+#[must_use]
+pub fn because(event: &Event, describe: &dyn Describe) -> String {
     let rule = describe.rule(event.rule);
     let text = Some(rule.text.to_owned()).filter(|text| !text.is_empty());
     let inputs = event.inputs.iter().filter_map(|input| shown(input, describe));

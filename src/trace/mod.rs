@@ -73,6 +73,7 @@ mod waves;
 mod why;
 mod window;
 
+pub use because::because;
 pub use check::{CauseFault, CauseFinding};
 pub use compare::{Comparison, Reading};
 pub use curves::{Curves, Limit, Panel};

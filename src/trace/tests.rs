@@ -274,13 +274,13 @@ fn causes_name_signals_machine_data_and_lengths() {
         parent: EventId::NONE,
     };
     assert_eq!(
-        because::because(&event, &control),
+        because(&event, &control),
         "REF-11: X.traversing_key_plus = 1, X.synchronism_difference = -0.941000, alarm 10653"
     );
     let with_text = Event { rule: RuleNumber(1), ..event };
-    assert!(because::because(&with_text, &control).starts_with("O-19: mode taken, X.traversing_key_plus = 1, "));
+    assert!(because(&with_text, &control).starts_with("O-19: mode taken, X.traversing_key_plus = 1, "));
     let bare = Event { rule: RuleNumber(1), inputs: [Input::None; 3], ..event };
-    assert_eq!(because::because(&bare, &control), "O-19: mode taken");
+    assert_eq!(because(&bare, &control), "O-19: mode taken");
 }
 
 #[test]
@@ -298,7 +298,7 @@ fn a_number_among_the_inputs_has_one_name_and_one_value() {
     recorder.push(byte(active, 11, 0, 2, By::Nck, EventId(1)));
     let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
     trace.extend(&recorder);
-    assert_eq!(because::because(&event, &control), "REF-11: X.controller_parameter_set = 2");
+    assert_eq!(because(&event, &control), "REF-11: X.controller_parameter_set = 2");
     let lines = trace.json_lines(&control, &Watch::default());
     let inputs = r#""inputs":[{"signal":"DB31.DBX9.0..2","symbol":"X.controller_parameter_set","value":2}]"#;
     assert!(lines.contains(inputs), "{lines}");
