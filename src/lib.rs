@@ -39,7 +39,7 @@
 //!  plant.toml ──────> plant ───────── machine ──> trace ──> scenario ──> golden
 //!                              (step, save, fork)               └─────── cli
 //!                                        │
-//!                                      live (real time, inbox, copies) ──> s7, web ──> clients
+//!                                      live (real time, inbox, copies) ──> s7, web, opcua ──> clients
 //! ```
 //!
 //! The control and the PLC program have no direct connection: they exchange the bytes of [`image`], as on a real machine. [`variables`]
@@ -75,6 +75,7 @@
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `image`, `live`, `machine`, `source`, `units`, `variables` |
 //! | [`web`] | the live page: a machine in real time in a browser (feature `web`) | `control`, `image`, `live`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
+//! | [`opcua`] | OPC UA: the namespace of a SINUMERIK for data collectors and operator panels (feature `opcua`, off by default) | `image`, `live`, `machine`, `source`, `units`, `variables` |
 //! | [`symbol_files`] | the signals of a machine as files of other tools: Node-RED, python-snap7, TIA Portal, STEP 7 (feature `cli`) | `image` |
 //! | [`cli`] | the command line: its arguments, and the construction of all other parts (feature `cli`) | all |
 //!
@@ -163,6 +164,8 @@ pub mod machine;
 pub mod monitor;
 pub mod motion;
 pub mod nc_program;
+#[cfg(feature = "opcua")]
+pub mod opcua;
 pub mod plant;
 pub mod plc;
 #[cfg(feature = "s7")]

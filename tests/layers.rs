@@ -62,13 +62,14 @@ const MODULES: &[(&str, &[&str])] = &[
     ("live", &["image", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),
     ("s7", &["image", "live", "machine", "source", "units", "variables"]),
     ("web", &["control", "image", "live", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),
+    ("opcua", &["image", "live", "machine", "source", "units", "variables"]),
     ("symbol_files", &["image"]),
     ("cli", &["*"]),
 ];
 
 /// Files that may use clocks, threads, sockets and random numbers.
 const OUTSIDE: &[&str] =
-    &["src/cli/", "src/live/", "src/s7/live/", "src/s7/server/", "src/s7/client/", "src/web/"];
+    &["src/cli/", "src/live/", "src/s7/live/", "src/s7/server/", "src/s7/client/", "src/web/", "src/opcua/"];
 
 /// A text and its remedy. (Escapes such as `\x21` keep this file from finding itself.)
 const REFUSED_IN_RUST: &[(&str, &str)] = &[

@@ -123,6 +123,26 @@ pub(crate) struct Arguments {
     #[cfg(feature = "web")]
     #[arg(long, value_name = "NAME", requires = "web")]
     pub(super) web_host: Vec<String>,
+    /// Serves OPC UA at opc.tcp://ADDR:PORT, with the node ids of a SINUMERIK: for example 127.0.0.1:4840. A port alone binds to this computer
+    /// only.
+    #[cfg(feature = "opcua")]
+    #[arg(long, value_name = "[ADDR:]PORT", value_parser = address)]
+    pub(super) opcua: Option<String>,
+    /// With --opcua: the folder with the certificate of the server, its private key, and the certificates of the clients that it trusts; it
+    /// is filled at the first start. Clients can then connect with encryption, also from other computers.
+    #[cfg(feature = "opcua")]
+    #[arg(long, value_name = "DIR", requires = "opcua")]
+    pub(super) opcua_pki: Option<PathBuf>,
+    /// With --opcua: clients on other computers may connect without encryption.
+    #[cfg(feature = "opcua")]
+    #[arg(long, requires = "opcua")]
+    pub(super) opcua_insecure: bool,
+    /// With --opcua: a user and its rights, as panel:StateRead;PlcRead;PlcWrite or admin:SinuReadAll;SinuWriteAll; may be given several times.
+    ///
+    /// The password of the user `panel` is the environment variable OPENNCK_OPCUA_PASSWORD_panel. Without users, every client has all rights.
+    #[cfg(feature = "opcua")]
+    #[arg(long, value_name = "NAME:RIGHTS", requires = "opcua")]
+    pub(super) opcua_user: Vec<String>,
     /// Also logs the writes of clients: client, address, value.
     #[arg(long)]
     pub(super) log_writes: bool,

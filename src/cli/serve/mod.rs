@@ -6,6 +6,10 @@
 mod arguments;
 mod banner;
 mod handles;
+#[cfg(feature = "opcua")]
+mod opcua;
+#[cfg(any(feature = "opcua", feature = "web"))]
+mod protects;
 mod status;
 #[cfg(feature = "web")]
 mod web;
@@ -56,6 +60,9 @@ struct Served {
     /// Likewise.
     #[cfg(feature = "web")]
     page: Option<crate::web::WebServer>,
+    /// Likewise.
+    #[cfg(feature = "opcua")]
+    opcua: Option<crate::opcua::OpcUaServer>,
     /// Also ended before the machine.
     keeper: Option<Keeper>,
     live: Live,
@@ -71,6 +78,8 @@ impl Served {
     fn close(self) -> Result<(), Problem> {
         #[cfg(feature = "web")]
         drop(self.page);
+        #[cfg(feature = "opcua")]
+        drop(self.opcua);
         let Self { server, keeper, live, trace, .. } = self;
         drop(server);
         drop(keeper);
@@ -159,6 +168,19 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
             return Err(problem);
         }
     };
+    #[cfg(feature = "opcua")]
+    let opcua = match opcua::open(&live, arguments, &terms) {
+        Ok(opcua) => opcua,
+        Err(problem) => {
+            #[cfg(feature = "web")]
+            drop(page);
+            drop(server);
+            drop(keeper);
+            drop(live);
+            let _ = arguments.record.as_ref().map(std::fs::remove_file);
+            return Err(problem);
+        }
+    };
     if let Some(warning) = arguments.warning(server.addresses()) {
         output.warning(warning);
     }
@@ -169,6 +191,10 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     #[cfg(feature = "web")]
     {
         head += &web::banner(page.as_ref());
+    }
+    #[cfg(feature = "opcua")]
+    {
+        head += &opcua::banner(opcua.as_ref());
     }
     if let Some(file) = arguments.image.as_deref().filter(|_| arguments.lock_step) {
         head += &waiting(file);
@@ -181,6 +207,8 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         server,
         #[cfg(feature = "web")]
         page,
+        #[cfg(feature = "opcua")]
+        opcua,
         keeper,
         live,
         status,

@@ -4,9 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::arguments::Arguments;
+use super::protects::refusal;
 use crate::live::{Live, LiveOptions, Opened};
-use crate::machine::{Command, Machine};
-use crate::s7::Protected;
 use crate::s7::live::Terms;
 use crate::source::Problem;
 use crate::web::{WebOptions, WebServer};
@@ -44,19 +43,4 @@ pub(super) fn banner(server: Option<&WebServer>) -> String {
     let Some(server) = server else { return String::new() };
     let token = server.token().map_or_else(String::new, |token| format!("#token={token}"));
     server.addresses().iter().map(|address| format!("page on http://{address}/{token}\n")).collect()
-}
-
-/// Why `--protect` forbids a command, if it does.
-fn refusal(protected: &[Protected], machine: &Machine, command: &Command) -> Option<String> {
-    let covers = |one: &Protected| match command.location() {
-        Some(location) => {
-            let address = machine.names().address(location);
-            one.covers(address.area, address.byte.into(), location.bytes())
-        }
-        None => {
-            *one == Protected::NcVariables
-                && matches!(command, Command::MachineDatum { .. } | Command::RParameter { .. })
-        }
-    };
-    protected.iter().any(covers).then(|| "the address is protected (--protect)".to_owned())
 }
