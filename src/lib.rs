@@ -150,6 +150,9 @@
 //! | an NC variable for clients | a row in `variables/nc/catalogue.rs` | its value for S7 and OPC UA clients |
 //! | a module | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
 
+// A build without the module has no documentation of it to link to.
+#![cfg_attr(not(feature = "opcua"), doc = "\n[`opcua`]: #modules-and-their-imports")]
+
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod control;

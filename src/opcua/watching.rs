@@ -26,6 +26,8 @@ pub(super) struct Watching {
     handles: HashMap<MonitoredItemHandle, String>,
     /// The last step that was compared.
     last: Option<Box<Seen>>,
+    /// The number of steps that were lost.
+    lost: u64,
 }
 
 #[derive(Debug)]
@@ -44,7 +46,7 @@ struct Watched {
 impl Watching {
     pub(super) fn new(live: Handle, serial_number: String) -> Self {
         let steps = live.steps();
-        Self { live, serial_number, steps, watched: BTreeMap::new(), handles: HashMap::new(), last: None }
+        Self { live, serial_number, steps, watched: BTreeMap::new(), handles: HashMap::new(), last: None, lost: 0 }
     }
 
     /// Each step counts from now on.
@@ -112,6 +114,14 @@ impl Watching {
             }
         }
         hand_over(subscriptions, &mut edges);
+        let lost = self.steps.lost();
+        if lost > self.lost {
+            let steps = lost - self.lost;
+            tracing::warn!(
+                "OPC UA: {steps} cycles were not compared, because this computer is busy: clients may miss edges"
+            );
+            self.lost = lost;
+        }
     }
 }
 

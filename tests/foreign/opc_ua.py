@@ -156,6 +156,8 @@ async def ids(program):
             referenced = await root.get_child(["2:Plc", "2:DB31", "2:DB31.DBX60.4"])
             holds("a signal is described", "referenced" in (await referenced.read_description()).Text)
             equal("its parent", (await referenced.get_parent()).nodeid.Identifier, "/Plc/DB31")
+            equal("an axis of OPC 40502", await node(client, "CncInterface/CncAxisList/X/IsReferenced").read_value(), False)
+            await refused("a value that the simulator does not have", node(client, "CncInterface/CncAxisList/X/ActLoad").read_value(), "BadNotSupported")
             many = [node(client, f"/Plc/MB{byte}") for byte in range(200)] * 10
             equal("2,000 nodes in a request", len(await client.read_values(many)), 2000)
 

@@ -50,7 +50,7 @@ pub(super) fn clock_time(date: DateAndTime) -> ClockTime {
 ///
 /// # Errors
 /// There is no such variable, or no such row.
-pub fn read(view: &View<'_>, item: &NckItem, into: &mut Vec<u8>) -> Result<(), Refusal> {
+pub(super) fn read(view: &View<'_>, item: &NckItem, into: &mut Vec<u8>) -> Result<(), Refusal> {
     let lines = lines(item)?;
     let start = into.len();
     let variable = find(view, item);
@@ -98,7 +98,7 @@ fn put_variable(
     match (variable.kind, shown) {
         (Kind::Text(length), Shown::Text(text)) => put_text(&text, length, into),
         (Kind::Date, Shown::Date(date)) => {
-            into.extend_from_slice(&date.map_or([0; 8], |date| date_and_time(date).bytes()))
+            into.extend_from_slice(&date.map_or([0; 8], |date| date_and_time(date).bytes()));
         }
         (Kind::Double | Kind::Length, Shown::Number(value)) => into.extend_from_slice(&value.to_le_bytes()),
         (Kind::DriveReal, Shown::Number(value)) => into.extend_from_slice(&drives::real(value)),
@@ -130,7 +130,7 @@ fn datum<'a>(view: &View<'a>, item: &NckItem, line: u16) -> Result<(Place, Datum
 ///
 /// # Errors
 /// There is no such variable or row, it cannot be written, or a value does not fit; then nothing was appended.
-pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Command>) -> Result<(), Refusal> {
+pub(super) fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Command>) -> Result<(), Refusal> {
     let lines = lines(item)?;
     if find(view, item).is_some_and(|variable| variable.module != module::RP) {
         return Err(Refusal::NotAllowed); // a displayed value is read-only
