@@ -197,8 +197,8 @@ fn a_string_that_was_entered_in_its_middle_names_what_ran() {
     let mut second = plc("A I 0.2; JU a; A I 0.0; a: A I 0.1; = Q 0.0;", 0b110);
     assert_eq!(seen(&mut second), [(q(0), vec![])]);
     let jump = "A I 0.1; JC b; A I 0.0; JCN a; b: L 5; T MW 40; a: NOP 0;";
-    let mut plc = self::plc(jump, 0b10);
-    assert_eq!(words(&mut plc), [(m(40, 0), 5, vec![])]);
+    let mut third = plc(jump, 0b10);
+    assert_eq!(words(&mut third), [(m(40, 0), 5, vec![])]);
 }
 
 /// OB121 has its own accumulators; after it those of OB1 are what they were.
