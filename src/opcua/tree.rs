@@ -1,7 +1,7 @@
 //! The nodes that browsing shows: signals of the axes, channels and mode groups that exist, the blocks of the PLC program as patterns, NC
 //! variables with all their axes and channels. Many more ids can be typed.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::node_id::{Own, Scope};
 use super::reading::Reader;
@@ -57,12 +57,12 @@ impl<'a> Described<'a> {
 #[derive(Debug)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
-    by_id: HashMap<String, usize>,
+    by_id: BTreeMap<String, usize>,
 }
 
 impl Tree {
     pub(super) fn of(reader: &Reader<'_>) -> Self {
-        let mut tree = Self { nodes: Vec::new(), by_id: HashMap::new() };
+        let mut tree = Self { nodes: Vec::new(), by_id: BTreeMap::new() };
         tree.add(None, ROOT, ROOT, ROOT.to_owned(), "The machine.".to_owned(), true);
         let plc = tree.folder(0, "/Plc", "Plc", "Memory of the PLC, by STEP 7 addresses.");
         tree.add_signals(plc, reader.machine());
@@ -96,6 +96,7 @@ impl Tree {
         self.by_id.get(id).map(|index| &self.nodes[*index])
     }
 
+    #[cfg(test)]
     pub(super) fn nodes(&self) -> &[Node] {
         &self.nodes
     }
@@ -156,7 +157,7 @@ impl Tree {
                 let folder =
                     self.add(Some(plc), &format!("/Plc/{block_name}"), &block_name, display, String::new(), true);
                 let text = address.to_string();
-                let short = text.rsplit_once(".DB").map_or(text.clone(), |(_, short)| format!("DB{short}"));
+                let short = text.rsplit_once(".DB").map_or_else(|| text.clone(), |(_, short)| format!("DB{short}"));
                 let symbol = names.symbol(location).unwrap_or_default();
                 let description = format!("{symbol}: {}", signal.doc.trim());
                 let display = format!("{short} {}", signal.name);

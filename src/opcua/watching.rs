@@ -1,7 +1,7 @@
 //! The values that clients subscribe to. Every step of the machine is compared with the one before, so that each edge arrives, with the
 //! instant of its step. The stepping thread only puts the steps into a queue (`live/steps.rs`).
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use opcua::server::{MonitoredItemHandle, SubscriptionCache};
@@ -23,7 +23,8 @@ pub(super) struct Watching {
     steps: Steps,
     /// By the text of the node id.
     watched: BTreeMap<String, Watched>,
-    handles: HashMap<MonitoredItemHandle, String>,
+    /// The texts of the node ids, by the numbers of subscription and item.
+    handles: BTreeMap<(u32, u32), String>,
     /// The last step that was compared.
     last: Option<Box<Seen>>,
     /// The number of steps that were lost.
@@ -46,7 +47,7 @@ struct Watched {
 impl Watching {
     pub(super) fn new(live: Handle, serial_number: String) -> Self {
         let steps = live.steps();
-        Self { live, serial_number, steps, watched: BTreeMap::new(), handles: HashMap::new(), last: None, lost: 0 }
+        Self { live, serial_number, steps, watched: BTreeMap::new(), handles: BTreeMap::new(), last: None, lost: 0 }
     }
 
     /// Each step counts from now on.
@@ -76,12 +77,12 @@ impl Watching {
             value: Ok(value.clone()),
         });
         watched.items += 1;
-        self.handles.insert(handle, text.to_owned());
+        self.handles.insert(key(handle), text.to_owned());
         Ok(DataValue::new_at(value, DateTime::now()))
     }
 
     pub(super) fn remove(&mut self, handle: MonitoredItemHandle) {
-        let Some(text) = self.handles.remove(&handle) else { return };
+        let Some(text) = self.handles.remove(&key(handle)) else { return };
         if let Some(watched) = self.watched.get_mut(&text) {
             watched.items -= 1;
             if watched.items == 0 {
@@ -123,6 +124,10 @@ impl Watching {
             self.lost = lost;
         }
     }
+}
+
+fn key(handle: MonitoredItemHandle) -> (u32, u32) {
+    (handle.subscription_id, handle.monitored_item_id)
 }
 
 /// The notifier sends when it is dropped.
