@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use crate::units::{AxisNumber, AxisSet};
 
-use super::{Block, Format, Kind, Location, Numbering, Part, Signal, Unit, ValueTerms, Writer};
+use super::{Block, Format, Kind, Location, Numbering, Part, Signal, UnitElements, ValueTerms, Writer};
 
 /// The description of an interface, provided by a control.
 #[derive(Debug)]
@@ -31,8 +31,8 @@ pub struct Tables {
     pub overrides: &'static [(Signal, Override)],
     /// Signals of an axis that the plant sets if a switch is not wired to an input.
     pub switches: Option<SwitchSignals>,
-    /// Names that stand for several signals.
-    pub units: &'static [Unit],
+    /// How the signals of a control unit are named; `None` without control units.
+    pub units: Option<UnitElements>,
     /// The machine data that name axes and channels, for the remedy in error messages.
     pub named_in: &'static str,
     /// An example of a symbol, for the remedy in error messages.

@@ -63,7 +63,7 @@ pub use numbering::{Numbering, Window};
 pub use override_switch::{OverrideCoding, override_code};
 pub use preset::Preset;
 pub use profile::Profile;
-pub use signal::{Block, Kind, Signal, Unit, Writer};
+pub use signal::{Block, Kind, Signal, UnitElements, Writer};
 pub use sinumerik::{
     ACKNOWLEDGE_USER_ALARMS, Axis828d, AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelAuxiliary828d, ChannelFromNck,
     ChannelHmi, ChannelJumpToNck, ChannelProgramToNck, ChannelSearchFromNck, ChannelToNck, FromNck, Hmi,

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel};
 
-use super::{Address, Area, Block, Interface, Location, Memory, Part, Profile, Unit, Width, Writer};
+use super::{Address, Area, Block, Interface, Location, Memory, Part, Profile, Signal, UnitElements, Width, Writer};
 
 /// The names of the axes and channels of a machine, its interface, and the numbering of the interface blocks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -134,9 +134,9 @@ impl Names {
     pub fn resolve_written(&self, memory: &Memory, text: &str) -> Result<(Location, Option<Location>), Problem> {
         let unit = text.split_once('.').and_then(|(owner, name)| {
             let (block, number) = self.block(owner)?;
-            let unit = self.unit(block, name)?;
+            let [enable, command, _] = self.unit(block, name)?;
             let location = |signal| self.interface().location(signal, number);
-            Some((location(&unit.command)?, location(&unit.enable)))
+            Some((location(command)?, Some(location(enable)?)))
         });
         unit.map_or_else(|| Ok((self.resolve(memory, text)?, None)), Ok)
     }
@@ -148,8 +148,12 @@ impl Names {
         named.or_else(|| alias().map(|(_, axis)| (Block::Axis, axis.number())))
     }
 
-    fn unit(&self, block: Block, name: &str) -> Option<&'static Unit> {
-        self.interface().tables().units.iter().find(|unit| unit.name == name && unit.command.block == block)
+    /// The signals of a control unit: enable, command, state.
+    fn unit(&self, block: Block, name: &str) -> Option<[&'static Signal; 3]> {
+        let UnitElements { enable, command, state } = self.interface().tables().units?;
+        let of_block = || self.interface().signals().filter(|signal| signal.block == block);
+        let element = |end: &str| of_block().find(|signal| signal.name.strip_prefix(name) == Some(end));
+        Some([element(enable)?, element(command)?, element(state)?])
     }
 
     fn lookup(&self, owner: &str, name: &str) -> Result<Location, Problem> {
@@ -161,7 +165,8 @@ impl Names {
             return Err(Problem::new(format!("expected one of `{}`, found `{owner}`", known.join("`, `")), cure));
         };
         let of_block = || self.interface().signals().filter(|signal| signal.block == block);
-        if let Some(location) = self.unit(block, name).and_then(|unit| self.interface().location(&unit.state, number)) {
+        if let Some(location) = self.unit(block, name).and_then(|[.., state]| self.interface().location(state, number))
+        {
             return Ok(location);
         }
         let of_name = of_block().filter(|signal| signal.name == name);

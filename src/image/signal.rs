@@ -79,15 +79,14 @@ pub struct Signal {
     pub doc: &'static str,
 }
 
-/// A control unit: a name that stands for several signals of one block. Written, it is `enable` = 1 and the command; read, it is the state.
-#[derive(Debug)]
-pub struct Unit {
-    /// The name, in the place of the name of a signal.
-    pub name: &'static str,
+/// The ends of the names of a control unit's signals. The beginning that they share is the name of the unit, which stands for all of them:
+/// written, it is `enable` = 1 and the command; read, it is the state.
+#[derive(Clone, Copy, Debug)]
+pub struct UnitElements {
     /// 1 = the command acts.
-    pub enable: Signal,
+    pub enable: &'static str,
     /// The value that the PLC gives.
-    pub command: Signal,
+    pub command: &'static str,
     /// The value that acts.
-    pub state: Signal,
+    pub state: &'static str,
 }

@@ -10,7 +10,7 @@
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use crate::image::{
-    Block, BlockTable, ByteRange, Interface, Layout, Numbering, Part, Tables, Unit, ValueTerms, Window,
+    Block, BlockTable, ByteRange, Interface, Layout, Numbering, Part, Tables, UnitElements, ValueTerms, Window,
 };
 use crate::signals;
 use crate::units::{PerAxis, PerChannel};
@@ -172,40 +172,6 @@ pub struct FromCnc {
     pub axes: PerAxis<AxisFromCnc>,
 }
 
-/// The control units: the names that stand for their elements.
-static UNITS: &[Unit] = &[
-    Unit {
-        name: "feed_override",
-        enable: channel_to_cnc::feed_override_enable,
-        command: channel_to_cnc::feed_override_command,
-        state: channel_from_cnc::feed_override_state,
-    },
-    Unit {
-        name: "program_block_ignore",
-        enable: channel_to_cnc::program_block_ignore_enable,
-        command: channel_skip_to_cnc::program_block_ignore_command,
-        state: channel_skip_from_cnc::program_block_ignore_state,
-    },
-    Unit {
-        name: "drive_enable",
-        enable: axis_to_cnc::drive_enable_enable,
-        command: axis_to_cnc::drive_enable_command,
-        state: axis_from_cnc::drive_enable_state,
-    },
-    Unit {
-        name: "feed_enable",
-        enable: axis_to_cnc::feed_enable_enable,
-        command: axis_to_cnc::feed_enable_command,
-        state: axis_from_cnc::feed_enable_state,
-    },
-    Unit {
-        name: "gantry_on",
-        enable: axis_to_cnc::gantry_on_enable,
-        command: axis_to_cnc::gantry_on_command,
-        state: axis_from_cnc::gantry_on_state,
-    },
-];
-
 /// The HLI of a control of the ISG kernel.
 pub static HLI: Interface = Interface::new(Tables {
     name: "isg",
@@ -270,7 +236,7 @@ pub static HLI: Interface = Interface::new(Tables {
     standard_blocks: &[],
     overrides: &[],
     switches: None,
-    units: UNITS,
+    units: Some(UnitElements { enable: ".enable_w", command: ".command_w", state: ".state_r" }),
     named_in: "kopf.achs_nr, kopf.log_achs_name and gruppe[0].achse[i].bezeichnung in the parameter lists",
     example: "ax1.homed",
     values: ValueTerms {

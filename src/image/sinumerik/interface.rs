@@ -52,7 +52,7 @@ pub static SINUMERIK: Interface = Interface::new(Tables {
         limit_plus: axis_to_nck::hardware_limit_switch_plus,
         limit_minus: axis_to_nck::hardware_limit_switch_minus,
     }),
-    units: &[],
+    units: None,
     named_in: "MD10000, MD20000",
     example: "X.controller_enable",
     values: ValueTerms::SINUMERIK,

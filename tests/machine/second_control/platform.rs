@@ -119,7 +119,7 @@ static OWN: Interface = Interface::new(Tables {
     standard_blocks: &[],
     overrides: &[],
     switches: None,
-    units: &[],
+    units: None,
     named_in: "the list of drives",
     example: "A1.power",
     values: ValueTerms::SINUMERIK,
