@@ -233,6 +233,33 @@ fn a_start_and_ref_name_what_they_wait_for() {
     assert!(tree.contains("block entered in MDA of CHAN1: none, wanted one"), "{tree}");
 }
 
+/// What ends a state is named, not only that it is to end.
+#[test]
+fn a_state_ends_with_what_is_named() {
+    let mut session = opennck::scenario::Session::open("portal").unwrap();
+    session = session.with_program(opennck::plc::enable_all().boxed());
+    session.wait("X.position_controller_active", "1s").unwrap();
+    session.set("mode_group_1.mode_automatic", 1).unwrap();
+    session.nc("N10 G1 X100 F1000\nM30", 1).unwrap();
+    session.run("1cycles").unwrap();
+    session.pulse("CHAN1.nc_start").unwrap();
+    session.run("100ms").unwrap();
+    for (signal, words) in [
+        ("CHAN1.program_state_running", "CHAN1.nc_stop (DB21.DBX7.3) = 0, wanted 1"),
+        ("CHAN1.program_state_running", "next block of CHAN1: N10, runs, wanted M2 or M30"),
+        ("CHAN1.program_state_interrupted", "mode_group_1.active_mode_jog (DB11.DBX6.2) = 0, wanted 1"),
+        ("CHAN1.m0_m1_active", "next block of CHAN1: N10, runs, wanted one with M0 or M1"),
+        ("CHAN1.block_search_active", "order of a block search of CHAN1: none, wanted one"),
+        ("mode_group_1.active_mode_automatic", "mode_group_1.mode_jog (DB11.DBX0.2) = 0, wanted 1"),
+        ("X.axis_replacement_possible", "next block of CHAN1: N10, runs, wanted one that does not use the axis"),
+        ("Y.neutral_axis", "next block of CHAN1: N10, runs, wanted one that releases the axis (RELEASE, WAITP)"),
+        ("Y.plc_axis", "Y.request_plc_axis (DB32.DBX8.7) = 0, wanted 1"),
+    ] {
+        let tree = session.why_not(signal, false).unwrap();
+        assert!(tree.contains(words), "{signal}, {words} in {tree}");
+    }
+}
+
 /// The tree in the page for commissioning engineers is that of the program.
 #[test]
 fn the_tree_in_the_page_is_that_of_the_program() {

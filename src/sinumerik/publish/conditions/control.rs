@@ -40,9 +40,21 @@ pub(super) const NCK: &[Row<()>] = &[
 
 /// DB11.
 pub(super) const MODE_GROUP: &[Row<ModeGroupNumber>] = &[
-    Row::new(mode_group_from_nck::active_mode_automatic, |look, group| look.mode(group, Mode::Automatic)),
-    Row::new(mode_group_from_nck::active_mode_mdi, |look, group| look.mode(group, Mode::Mda)),
-    Row::new(mode_group_from_nck::active_mode_jog, |look, group| look.mode(group, Mode::Jog)),
+    Row::with(
+        mode_group_from_nck::active_mode_automatic,
+        |look, group| look.mode(group, Mode::Automatic),
+        |look, group| look.mode_is_left(group, Mode::Automatic),
+    ),
+    Row::with(
+        mode_group_from_nck::active_mode_mdi,
+        |look, group| look.mode(group, Mode::Mda),
+        |look, group| look.mode_is_left(group, Mode::Mda),
+    ),
+    Row::with(
+        mode_group_from_nck::active_mode_jog,
+        |look, group| look.mode(group, Mode::Jog),
+        |look, group| look.mode_is_left(group, Mode::Jog),
+    ),
     Row::new(mode_group_from_nck::mode_group_ready, |look, owner| look.mode_group_ready(owner)),
     Row::new(mode_group_from_nck::all_channels_in_reset_state, |look, owner| look.all_channels_reset(owner)),
     Row::new(mode_group_from_nck::active_machine_function_teach_in, |look, group| {
@@ -63,10 +75,16 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         |look, owner| look.channel_referencing(owner),
         |look, owner| look.channel_referencing_ended(owner),
     ),
-    Row::new(channel_from_nck::all_axes_requiring_reference_point_are_referenced, |look, owner| {
-        look.all_referenced(owner)
-    }),
-    Row::new(channel_from_nck::all_axes_stationary, |look, owner| look.all_stand(owner)),
+    Row::with(
+        channel_from_nck::all_axes_requiring_reference_point_are_referenced,
+        |look, owner| look.all_referenced(owner),
+        |look, owner| look.not_all_referenced(owner),
+    ),
+    Row::with(
+        channel_from_nck::all_axes_stationary,
+        |look, owner| look.all_stand(owner),
+        |look, owner| look.not_all_stand(owner),
+    ),
     Row::new(channel_from_nck::channel_ready, |look, owner| look.channel_ready(owner)),
     Row::new(channel_from_nck::channel_specific_nck_alarm_active, |look, channel| {
         look.no_channel_alarm(channel, "interface signals", Reaction::INTERFACE_SIGNALS).opposite()
@@ -75,6 +93,14 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         look.no_channel_alarm(channel, "the reaction stop", Reaction::STOP).opposite()
     }),
 ];
+
+const fn mode_name(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Automatic => "AUTO",
+        Mode::Mda => "MDA",
+        Mode::Jog => "JOG",
+    }
+}
 
 impl Look<'_> {
     fn inch(self) -> Condition {
@@ -143,35 +169,44 @@ impl Look<'_> {
         })
     }
 
-    fn mode(self, group: ModeGroupNumber, wanted: Mode) -> Condition {
-        let name = |mode| match mode {
-            Mode::Automatic => "AUTO",
-            Mode::Mda => "MDA",
-            Mode::Jog => "JOG",
-        };
+    /// The mode of a group is another one: that one has been selected.
+    fn mode_is_left(self, group: ModeGroupNumber, left: Mode) -> Condition {
         let mode = self.state.mode_groups[group].mode;
-        Fact::new(format!("mode of mode group {group}"), name(mode), name(wanted), mode == wanted).after(|| {
-            let asks = |signal, value| self.mode_group(group, signal, value);
-            let mut all = vec![asks(mode_group_to_nck::mode_change_inhibit, false)];
-            let refused = self.state.mode_groups[group].refused == Some(wanted);
-            if wanted != Mode::Jog {
-                all.push(self.no_program(group, |run| run.is_mda != (wanted == Mode::Mda), refused));
-            }
-            // JOG has priority over MDA, MDA over AUTO.
-            match wanted {
-                Mode::Jog => all.push(asks(mode_group_to_nck::mode_jog, true)),
-                Mode::Mda => {
-                    all.push(asks(mode_group_to_nck::mode_mdi, true));
-                    all.push(asks(mode_group_to_nck::mode_jog, false));
-                }
-                Mode::Automatic => {
-                    all.push(asks(mode_group_to_nck::mode_automatic, true));
-                    all.push(asks(mode_group_to_nck::mode_mdi, false));
-                    all.push(asks(mode_group_to_nck::mode_jog, false));
-                }
-            }
-            Condition::All(all)
+        let wanted = format!("not {}", mode_name(left));
+        Fact::new(format!("mode of mode group {group}"), mode_name(mode), wanted, mode != left).after(|| {
+            let others = [Mode::Jog, Mode::Mda, Mode::Automatic].into_iter().filter(|mode| *mode != left);
+            Condition::Any(others.map(|mode| Condition::All(self.selects_mode(group, mode))).collect())
         })
+    }
+
+    fn mode(self, group: ModeGroupNumber, wanted: Mode) -> Condition {
+        let mode = self.state.mode_groups[group].mode;
+        Fact::new(format!("mode of mode group {group}"), mode_name(mode), mode_name(wanted), mode == wanted)
+            .after(|| Condition::All(self.selects_mode(group, wanted)))
+    }
+
+    /// What selects a mode.
+    fn selects_mode(self, group: ModeGroupNumber, wanted: Mode) -> Vec<Condition> {
+        let asks = |signal, value| self.mode_group(group, signal, value);
+        let mut all = vec![asks(mode_group_to_nck::mode_change_inhibit, false)];
+        let refused = self.state.mode_groups[group].refused == Some(wanted);
+        if wanted != Mode::Jog {
+            all.push(self.no_program(group, |run| run.is_mda != (wanted == Mode::Mda), refused));
+        }
+        // JOG has priority over MDA, MDA over AUTO.
+        match wanted {
+            Mode::Jog => all.push(asks(mode_group_to_nck::mode_jog, true)),
+            Mode::Mda => {
+                all.push(asks(mode_group_to_nck::mode_mdi, true));
+                all.push(asks(mode_group_to_nck::mode_jog, false));
+            }
+            Mode::Automatic => {
+                all.push(asks(mode_group_to_nck::mode_automatic, true));
+                all.push(asks(mode_group_to_nck::mode_mdi, false));
+                all.push(asks(mode_group_to_nck::mode_jog, false));
+            }
+        }
+        all
     }
 
     fn function(self, group: ModeGroupNumber, wanted: MachineFunction) -> Condition {
@@ -275,6 +310,24 @@ impl Look<'_> {
         })
     }
 
+    fn not_all_referenced(self, channel: ChannelNumber) -> Condition {
+        let needed = self.parameters.channels[channel].reference_needed;
+        let what = format!("axes of {} without the reference point that they need", self.channel_name(channel));
+        let referenced = self.state.summary.referenced;
+        let holds = !referenced.has_all_of(needed);
+        Fact::new(what, self.without(needed, referenced), "one", holds)
+            .after(|| Condition::Any(needed.iter().map(|axis| self.reference_signal(axis).opposite()).collect()))
+    }
+
+    fn not_all_stand(self, channel: ChannelNumber) -> Condition {
+        let axes = self.state.stationary_axes(channel, self.parameters);
+        let standing = self.state.summary.standing;
+        let what = format!("axes of {} that are not stationary", self.channel_name(channel));
+        let holds = !standing.has_all_of(axes);
+        Fact::new(what, self.without(axes, standing), "one", holds)
+            .after(|| Condition::Any(axes.iter().map(|axis| self.stationary_no_more(axis)).collect()))
+    }
+
     fn all_stand(self, channel: ChannelNumber) -> Condition {
         let axes = self.state.stationary_axes(channel, self.parameters);
         let standing = self.state.summary.standing;
@@ -286,7 +339,7 @@ impl Look<'_> {
         })
     }
 
-    fn no_channel_alarm(self, channel: ChannelNumber, words: &str, reaction: Reaction) -> Condition {
+    pub(super) fn no_channel_alarm(self, channel: ChannelNumber, words: &str, reaction: Reaction) -> Condition {
         self.no_alarm(format!("alarm of {} with {words}", self.channel_name(channel)), |place, alarm| {
             alarm.reaction.has(reaction) && self.state.owners.concerns_channel(self.parameters, place, channel)
         })

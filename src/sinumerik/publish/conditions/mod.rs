@@ -7,7 +7,8 @@
 //!
 //! | file | signals |
 //! |---|---|
-//! | `axis.rs` | enabling, measuring systems, exact stop, standstill |
+//! | `enabling.rs` | 61.3, 61.5 to 61.7, 92.5, 93.5, 93.7 |
+//! | `axis.rs` | measuring systems, exact stop, standstill |
 //! | `exchange.rs` | 68.4 to 68.7 |
 //! | `single_axis.rs` | 63.0 to 63.2, 76.5, 104.0 to 104.7 |
 //! | `referencing.rs` | 60.4, 60.5, 33.0 |
@@ -16,12 +17,13 @@
 //! | `spindle.rs` | 60.0, 82.3, 83.0 to 83.7, 84.5 to 84.7, 85.5 |
 //! | `jog.rs` | handwheels, increments: 64.0 to 64.2, 65.x, 67.0, DB11 8.x |
 //! | `control.rs` | DB10, DB11, DB21 |
-//! | `program.rs` | DB21 32.5, 33.5, 35.x, 58 to 206 |
+//! | `program.rs`, `states.rs` | DB21 32.x, 33.x, 35.x, 58 to 206 |
 //!
 //! `look.rs` has what they are computed from.
 
 mod axis;
 mod control;
+mod enabling;
 mod exchange;
 mod gantry;
 mod jog;
@@ -31,6 +33,7 @@ mod program;
 mod referencing;
 mod single_axis;
 mod spindle;
+mod states;
 
 use crate::control::{Condition, Question};
 use crate::image::{NckHmi, ToNck};
@@ -61,6 +64,7 @@ impl Nck {
             Place::Axis(axis) => {
                 let found = [
                     axis::ROWS,
+                    enabling::ROWS,
                     exchange::ROWS,
                     single_axis::ROWS,
                     referencing::ROWS,
@@ -97,6 +101,7 @@ mod tests {
             _ => {
                 let all = [
                     axis::ROWS,
+                    enabling::ROWS,
                     exchange::ROWS,
                     single_axis::ROWS,
                     referencing::ROWS,

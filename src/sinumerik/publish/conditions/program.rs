@@ -1,13 +1,13 @@
 //! Conditions of the signals of a program: its state, the state of the channel, auxiliary functions.
 
-use crate::control::{Condition, Fact, Question, fact};
+use crate::control::{Condition, Fact, Question, fact, yes};
 use crate::image::{
     ChannelAuxiliary, axis_from_nck, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck,
     mode_group_from_nck, mode_group_to_nck, nck_from_nck,
 };
 use crate::nc_program::g;
 use crate::sinumerik::operation::state::Mode;
-use crate::sinumerik::program::search_state::Search;
+use crate::sinumerik::program::search_state::{Search, SearchProgress};
 use crate::sinumerik::program::state::{Phase, ProgramState, WaitFor};
 use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::sinumerik::user::state::UserReaction;
@@ -15,44 +15,52 @@ use crate::units::{AxisNumber, ChannelNumber};
 
 /// DB21.DBX32.5, 33.2, 33.5, 35.0 to 35.7.
 pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
-    Row::new(channel_from_nck::m0_m1_active, |look, channel| {
-        let is_stopped = look.state.programs[channel].programmed_stop;
-        fact(format!("the program of {} is stopped by M0 or M1", look.channel_name(channel)), is_stopped).into()
-    }),
-    Row::new(channel_from_nck::action_block_active, |look, channel| {
-        let program = &look.state.programs[channel];
-        let acts = program.search().is_some_and(|search| search.acts(&program.output));
-        fact(format!("action blocks of {} are output after a block search", look.channel_name(channel)), acts).into()
-    }),
-    Row::new(channel_from_nck::approach_block_active, |look, channel| {
-        let approaches = look.state.programs[channel].run.as_ref().is_some_and(|run| run.approaches);
-        fact(format!("the axes of {} approach the block of a search", look.channel_name(channel)), approaches).into()
-    }),
-    Row::new(channel_from_nck::last_action_block_active, |look, channel| {
-        let is_last = look.state.programs[channel].search().is_some_and(Search::is_last_action);
-        fact(
-            format!("the last action block of {} was output, and NC start is waited for", look.channel_name(channel)),
-            is_last,
-        )
-        .into()
-    }),
-    Row::new(channel_from_nck::block_search_active, |look, channel| {
-        let searches = look.state.programs[channel].search().is_some_and(Search::is_searching);
-        fact(format!("a block search of {} runs", look.channel_name(channel)), searches).into()
-    }),
-    Row::new(channel_search_from_nck::search_by_program_test_active, |look, channel| {
-        let searches = look.state.programs[channel].search().is_some_and(Search::is_by_program_test);
-        fact(format!("a block search with program test of {} runs", look.channel_name(channel)), searches).into()
-    }),
+    Row::with(
+        channel_from_nck::m0_m1_active,
+        |look, channel| look.stopped_by(channel, "M0 or M1", look.state.programs[channel].programmed_stop),
+        |look, channel| look.stopped_no_more(channel, "M0 or M1", look.state.programs[channel].programmed_stop),
+    ),
+    Row::with(
+        channel_from_nck::action_block_active,
+        |look, channel| {
+            let output = &look.state.programs[channel].output;
+            look.search_is(channel, "outputs action blocks", |search| search.acts(output))
+        },
+        |look, channel| {
+            let output = &look.state.programs[channel].output;
+            look.search_is_not(channel, "outputs action blocks", |search| search.acts(output))
+        },
+    ),
+    Row::with(
+        channel_from_nck::approach_block_active,
+        |look, channel| look.approaches(channel, true),
+        |look, channel| look.approaches(channel, false),
+    ),
+    Row::with(
+        channel_from_nck::last_action_block_active,
+        |look, channel| look.search_is(channel, "has output its last action block", Search::is_last_action),
+        |look, channel| look.search_is_not(channel, "has output its last action block", Search::is_last_action),
+    ),
+    Row::with(
+        channel_from_nck::block_search_active,
+        |look, channel| look.search_is(channel, "looks for its block", Search::is_searching),
+        |look, channel| look.search_is_not(channel, "looks for its block", Search::is_searching),
+    ),
+    Row::with(
+        channel_search_from_nck::search_by_program_test_active,
+        |look, channel| look.search_is(channel, "looks for its block by program test", Search::is_by_program_test),
+        |look, channel| look.search_is_not(channel, "looks for its block by program test", Search::is_by_program_test),
+    ),
     Row::with(
         channel_from_nck::program_test_active,
         |look, channel| look.program_test(channel, true),
         |look, channel| look.program_test(channel, false),
     ),
-    Row::new(channel_from_nck::revolutional_feedrate_active, |look, channel| {
-        let active = look.state.programs[channel].modal.is(g::G95);
-        fact(format!("G95 is active in {}: feed per revolution", look.channel_name(channel)), active).into()
-    }),
+    Row::with(
+        channel_from_nck::revolutional_feedrate_active,
+        |look, channel| look.revolutional(channel, true),
+        |look, channel| look.revolutional(channel, false),
+    ),
     Row::new(channel_from_nck::handwheel_override_active, |look, channel| {
         let overrides =
             |axis: AxisNumber| look.state.axes[axis].by_handwheel.is_some_and(|one| one.is_active && !one.is_axial);
@@ -60,47 +68,63 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         fact(format!("a handwheel overrides the path of {}", look.channel_name(channel)), active)
             .after(|| look.override_of_path_begins(channel))
     }),
-    Row::new(channel_search_from_nck::associated_m0_m1_active, |look, channel| {
-        let is_stopped = look.state.programs[channel].associated_stop;
-        let what =
-            format!("the program of {} is stopped by an M function of MD22254 or MD22256", look.channel_name(channel));
-        fact(what, is_stopped).into()
-    }),
-    Row::new(channel_from_nck::m2_m30_active, |look, channel| {
-        let what = format!("a program of {} has ended, and none has started since", look.channel_name(channel));
-        fact(what, look.state.programs[channel].ended).after(|| look.reaches(channel, "M2 or M30"))
-    }),
-    Row::new(channel_from_nck::program_state_running, |look, owner| look.program(owner, ProgramState::Running)),
-    Row::new(channel_from_nck::program_state_wait, |look, owner| look.program(owner, ProgramState::Waiting)),
-    Row::new(channel_from_nck::program_state_stopped, |look, owner| look.program(owner, ProgramState::Stopped)),
-    Row::new(channel_from_nck::program_state_interrupted, |look, owner| look.program(owner, ProgramState::Interrupted)),
-    Row::new(channel_from_nck::program_state_aborted, |look, owner| look.program(owner, ProgramState::Aborted)),
-    Row::new(channel_from_nck::channel_state_active, |look, channel| {
-        let program = [ProgramState::Running, ProgramState::Waiting].map(|state| look.program(channel, state));
-        let moved = Condition::All(vec![
-            look.program(channel, ProgramState::Stopped).opposite(),
-            look.at_rest(channel).opposite(),
-        ]);
-        Condition::Any(program.into_iter().chain([moved]).collect())
-    }),
-    Row::new(channel_from_nck::channel_state_interrupted, |look, channel| {
-        let rests = Condition::All(vec![look.program(channel, ProgramState::Interrupted), look.at_rest(channel)]);
-        Condition::Any(vec![look.program(channel, ProgramState::Stopped), rests])
-    }),
-    Row::new(channel_from_nck::channel_state_reset, |look, channel| {
-        Condition::All(vec![look.program(channel, ProgramState::Aborted), look.at_rest(channel)])
-    }),
+    Row::with(
+        channel_search_from_nck::associated_m0_m1_active,
+        |look, channel| look.stopped_by(channel, ASSOCIATED, look.state.programs[channel].associated_stop),
+        |look, channel| look.stopped_no_more(channel, ASSOCIATED, look.state.programs[channel].associated_stop),
+    ),
+    Row::with(
+        channel_from_nck::m2_m30_active,
+        |look, channel| look.ended(channel, true).after(|| look.reaches(channel, "M2 or M30")),
+        |look, channel| look.ended(channel, false).after(|| look.program_starts(channel)),
+    ),
+    Row::with(
+        channel_from_nck::program_state_running,
+        |look, owner| look.program(owner, ProgramState::Running),
+        |look, owner| look.program_leaves(owner, ProgramState::Running),
+    ),
+    Row::with(
+        channel_from_nck::program_state_wait,
+        |look, owner| look.program(owner, ProgramState::Waiting),
+        |look, owner| look.program_leaves(owner, ProgramState::Waiting),
+    ),
+    Row::with(
+        channel_from_nck::program_state_stopped,
+        |look, owner| look.program(owner, ProgramState::Stopped),
+        |look, owner| look.program_leaves(owner, ProgramState::Stopped),
+    ),
+    Row::with(
+        channel_from_nck::program_state_interrupted,
+        |look, owner| look.program(owner, ProgramState::Interrupted),
+        |look, owner| look.program_leaves(owner, ProgramState::Interrupted),
+    ),
+    Row::with(
+        channel_from_nck::program_state_aborted,
+        |look, owner| look.program(owner, ProgramState::Aborted),
+        |look, owner| look.program_leaves(owner, ProgramState::Aborted),
+    ),
+    Row::with(
+        channel_from_nck::channel_state_active,
+        |look, owner| look.channel_active(owner),
+        |look, owner| look.channel_active_no_more(owner),
+    ),
+    Row::with(
+        channel_from_nck::channel_state_interrupted,
+        |look, owner| look.channel_interrupted(owner),
+        |look, owner| look.channel_interrupted_no_more(owner),
+    ),
+    Row::with(
+        channel_from_nck::channel_state_reset,
+        |look, channel| Condition::All(vec![look.program(channel, ProgramState::Aborted), look.at_rest(channel)]),
+        |look, channel| {
+            let leaves = look.program_leaves(channel, ProgramState::Aborted);
+            Condition::Any(vec![leaves, look.at_rest(channel).opposite()])
+        },
+    ),
 ];
 
-const fn word(state: ProgramState) -> &'static str {
-    match state {
-        ProgramState::Aborted => "aborted",
-        ProgramState::Running => "running",
-        ProgramState::Waiting => "waiting",
-        ProgramState::Stopped => "stopped",
-        ProgramState::Interrupted => "interrupted",
-    }
-}
+/// The M functions that stop a program as M0 and M1 do.
+const ASSOCIATED: &str = "an M function of MD22254 or MD22256";
 
 /// What the block of a program does, in words.
 const fn phase(phase: Phase) -> &'static str {
@@ -113,19 +137,57 @@ const fn phase(phase: Phase) -> &'static str {
 }
 
 impl Look<'_> {
-    fn program(self, channel: ChannelNumber, wanted: ProgramState) -> Condition {
-        let found = self.state.programs[channel].state;
-        let what = format!("state of the program of {}", self.channel_name(channel));
-        let fact = Fact::new(what, word(found), word(wanted), found == wanted);
-        match (wanted, found) {
-            (ProgramState::Running, ProgramState::Waiting) => fact.after(|| self.no_wait(channel)),
-            (ProgramState::Running, _) => fact.after(|| self.program_starts(channel)),
-            _ => fact.into(),
-        }
+    /// A program stands behind a block with a programmed stop.
+    fn stopped_by(self, channel: ChannelNumber, what: &str, holds: bool) -> Condition {
+        fact(format!("the program of {} is stopped by {what}", self.channel_name(channel)), holds)
+            .after(|| self.reaches(channel, &format!("one with {what}")))
+    }
+
+    fn stopped_no_more(self, channel: ChannelNumber, what: &str, holds: bool) -> Condition {
+        let shown = format!("the program of {} is stopped by {what}", self.channel_name(channel));
+        Fact::new(shown, yes(holds), "no", !holds)
+            .after(|| Condition::Any(vec![self.program_starts(channel), self.program_ends(channel)]))
+    }
+
+    fn ended(self, channel: ChannelNumber, wanted: bool) -> Fact {
+        let ended = self.state.programs[channel].ended;
+        let what = format!("a program of {} has ended, and none has started since", self.channel_name(channel));
+        Fact::new(what, yes(ended), yes(wanted), ended == wanted)
+    }
+
+    /// 32.4: the approach of a search.
+    fn approaches(self, channel: ChannelNumber, wanted: bool) -> Condition {
+        let run = self.state.programs[channel].run.as_deref();
+        let approaches = run.is_some_and(|run| run.approaches);
+        let what = format!("the axes of {} approach the block of a search", self.channel_name(channel));
+        Fact::new(what, yes(approaches), yes(wanted), approaches == wanted).after(|| {
+            match (wanted, self.stage(channel)) {
+                (true, _) => {
+                    self.search_is(channel, "has output everything, and NC start begins its approach", |search| {
+                        search.progress == SearchProgress::Ready
+                    })
+                }
+                (false, Some(stage)) => {
+                    let held = run.map(|run| self.path_not_held(run, &stage)).into_iter().flatten();
+                    let way = Fact::new("way of the approach", "not over", "over", false).into();
+                    Condition::Any(vec![Condition::All(held.chain([way]).collect()), self.program_ends(channel)])
+                }
+                (false, None) => Condition::NOTHING,
+            }
+        })
+    }
+
+    /// 33.2: G95.
+    fn revolutional(self, channel: ChannelNumber, wanted: bool) -> Condition {
+        let active = self.state.programs[channel].modal.is(g::G95);
+        let word = |on: bool| if on { "per revolution (G95)" } else { "per minute (G94)" };
+        let what = format!("feed of {}", self.channel_name(channel));
+        Fact::new(what, word(active), word(wanted), active == wanted)
+            .after(|| self.reaches(channel, if wanted { "one with G95" } else { "one with G94" }))
     }
 
     /// What a program that waits waits for.
-    fn no_wait(self, channel: ChannelNumber) -> Condition {
+    pub(super) fn no_wait(self, channel: ChannelNumber) -> Condition {
         let found = match self.state.programs[channel].run.as_deref().and_then(|run| run.waits.as_ref()) {
             Some(WaitFor::Mark { mark, .. }) => format!("for mark {mark} in other channels"),
             Some(WaitFor::End(_)) => "for the end of programs of other channels".to_owned(),
@@ -135,7 +197,7 @@ impl Look<'_> {
     }
 
     /// What NC start, or START of another channel, tests, in the order of `program/start.rs`.
-    fn program_starts(self, channel: ChannelNumber) -> Condition {
+    pub(super) fn program_starts(self, channel: ChannelNumber) -> Condition {
         let mut all = vec![
             self.mode_of_start(channel),
             self.not_disabled(channel, channel_to_nck::nc_start_disable, UserReaction::NcStart),
@@ -175,7 +237,7 @@ impl Look<'_> {
     }
 
     /// AUTOMATIC or MDA; a program that is stopped goes on in its own mode.
-    fn mode_of_start(self, channel: ChannelNumber) -> Condition {
+    pub(super) fn mode_of_start(self, channel: ChannelNumber) -> Condition {
         let group = self.parameters.mode_group(channel);
         let [automatic, mda] = [mode_group_from_nck::active_mode_automatic, mode_group_from_nck::active_mode_mdi]
             .map(|mode| self.mode_group(group, mode, true));
@@ -237,11 +299,14 @@ impl Look<'_> {
         let found = if is_set { "yes" } else { "no" };
         let wanted = if question.wanted { "yes" } else { "no" };
         let shown = Fact::new(what, found, wanted, is_set == question.wanted);
-        Some(if question.wanted {
-            shown.after(|| self.reaches(channel, "a block that outputs it"))
-        } else {
-            shown.into()
-        })
+        // Change bits, quick functions and decoded M functions stand for one scan, the values until the next output of their place.
+        let is_for_a_scan = question.byte < channel_auxiliary::m_function_1_extension.byte
+            || question.byte >= channel_auxiliary::decoded_m_function_0.byte;
+        Some(shown.after(|| match (question.wanted, is_for_a_scan) {
+            (true, _) => self.reaches(channel, "a block that outputs it"),
+            (false, true) => self.output_ends(channel),
+            (false, false) => self.reaches(channel, "a block that outputs another value in its place"),
+        }))
     }
 
     /// What a program waits for before it reaches a later block. Whether that block comes is not known.

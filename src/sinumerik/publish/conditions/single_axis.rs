@@ -1,10 +1,10 @@
 //! Conditions of the signals of an axis that is positioned alone: 63.0 to 63.2, 76.5, 104.0 to 104.7.
 
-use crate::control::{Condition, Fact, fact};
+use crate::control::{Condition, Fact, fact, yes};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
-use crate::sinumerik::publish::conditions::look::{Look, Row};
+use crate::sinumerik::publish::conditions::look::{Look, Row, length};
 use crate::sinumerik::single_axis::state::{OrderedBy, Outcome, SpindleOrder};
-use crate::units::AxisNumber;
+use crate::units::{AxisNumber, Position};
 use crate::variables::Place;
 
 /// The signals.
@@ -33,26 +33,31 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         fact(format!("a handwheel overrides the positioning of {}", look.axis_name(axis)), by_handwheel.is_some())
             .after(|| look.override_begins(axis, true))
     }),
-    Row::new(axis_from_nck::positioning_axis, |look, axis| {
-        let what = format!("the PLC, a synchronised action, POS or POSA positions {}", look.axis_name(axis));
-        fact(what, look.state.single.positioning.contains(axis)).into()
-    }),
+    Row::with(
+        axis_from_nck::positioning_axis,
+        |look, axis| look.positioned(axis, true),
+        |look, axis| look.positioned(axis, false),
+    ),
     Row::with(
         axis_from_nck::positioning_active,
         |look, axis| look.by_plc(axis, true).after(|| look.start_by_plc(axis)),
         |look, axis| look.by_plc(axis, false).after(|| look.end_by_plc(axis)),
     ),
-    Row::new(axis_from_nck::position_reached, |look, axis| look.ended(axis, "reached", Outcome::Reached)),
-    Row::new(axis_from_nck::positioning_error, |look, axis| {
-        let outcome = look.state.single.axes[axis].outcome;
-        let what = format!("the positioning of {} has failed", look.axis_name(axis));
-        fact(what, matches!(outcome, Outcome::Failed(_))).into()
-    }),
-    Row::new(axis_from_nck::positioning_not_started, |look, axis| {
-        let outcome = look.state.single.axes[axis].outcome;
-        let what = format!("the positioning of {} was refused", look.axis_name(axis));
-        fact(what, matches!(outcome, Outcome::Refused(_))).into()
-    }),
+    Row::with(
+        axis_from_nck::position_reached,
+        |look, axis| look.outcome(axis, "reached", |outcome| outcome == Outcome::Reached),
+        |look, axis| look.outcome_is_over(axis, "reached", |outcome| outcome == Outcome::Reached),
+    ),
+    Row::with(
+        axis_from_nck::positioning_error,
+        |look, axis| look.outcome(axis, "failed", |outcome| matches!(outcome, Outcome::Failed(_))),
+        |look, axis| look.outcome_is_over(axis, "failed", |outcome| matches!(outcome, Outcome::Failed(_))),
+    ),
+    Row::with(
+        axis_from_nck::positioning_not_started,
+        |look, axis| look.outcome(axis, "refused", |outcome| matches!(outcome, Outcome::Refused(_))),
+        |look, axis| look.outcome_is_over(axis, "refused", |outcome| matches!(outcome, Outcome::Refused(_))),
+    ),
 ];
 
 impl Look<'_> {
@@ -108,14 +113,69 @@ impl Look<'_> {
         vec![own, reset, self.nck(nck_from_nck::emergency_stop_active, true)]
     }
 
-    fn ended(self, axis: AxisNumber, wanted: &str, outcome: Outcome) -> Condition {
+    /// 76.5.
+    fn positioned(self, axis: AxisNumber, wanted: bool) -> Condition {
+        let found = self.state.single.positioning.contains(axis);
+        let what = format!("the PLC, a synchronised action, POS or POSA positions {}", self.axis_name(axis));
+        Fact::new(what, yes(found), yes(wanted), found == wanted).after(|| {
+            let channel = self.state.owners.of(axis).channel;
+            let order = self.state.single.axes[axis].order;
+            match (wanted, order) {
+                (true, _) => {
+                    let by_program = self.reaches(channel, "one with POS or POSA of the axis");
+                    Condition::Any(vec![by_program, self.start_by_plc(axis)])
+                }
+                (false, Some(order)) => {
+                    let ends = self.ends_positioning(axis, &self.unit(axis));
+                    Condition::Any(std::iter::once(self.way_left(axis, Some(order.target))).chain(ends).collect())
+                }
+                (false, None) => {
+                    let run = self.state.programs[channel].run.as_deref();
+                    let one = run.and_then(|run| run.positionings.iter().find(|one| one.axis == axis));
+                    self.way_left(axis, one.map(|one| one.target))
+                }
+            }
+        })
+    }
+
+    /// A positioning ends at its target.
+    fn way_left(self, axis: AxisNumber, target: Option<Position>) -> Condition {
+        let position = self.state.axes[axis].setpoint.position;
+        let left = target.map_or(Position::ZERO, |target| (target - position).abs());
+        let what = format!("distance of {} from its target", self.axis_name(axis));
+        Fact::new(what, length(left), "0, in exact stop", false).into()
+    }
+
+    fn shown_outcome(self, axis: AxisNumber, wanted: String, holds: bool) -> Fact {
         let found = match self.state.single.axes[axis].outcome {
             Outcome::None => "none",
             Outcome::Reached => "reached",
             Outcome::Failed(_) => "failed",
             Outcome::Refused(_) => "refused",
         };
-        let holds = self.state.single.axes[axis].outcome == outcome;
-        Fact::new(format!("outcome of the positioning of {}", self.axis_name(axis)), found, wanted, holds).into()
+        Fact::new(format!("outcome of the positioning of {}", self.axis_name(axis)), found, wanted, holds)
+    }
+
+    /// The outcome of an order of the PLC: it needs one that runs.
+    fn outcome(self, axis: AxisNumber, wanted: &str, is: impl Fn(Outcome) -> bool) -> Condition {
+        let one = &self.state.single.axes[axis];
+        self.shown_outcome(axis, wanted.to_owned(), is(one.outcome)).after(|| {
+            if one.order.is_none() && one.spindle.is_none() {
+                return self.start_by_plc(axis);
+            }
+            let what = format!("end of the order of the PLC for {}", self.axis_name(axis));
+            Fact::new(what, "not there", wanted, false).into()
+        })
+    }
+
+    /// An outcome stays until the PLC takes its start back.
+    fn outcome_is_over(self, axis: AxisNumber, left: &str, is: impl Fn(Outcome) -> bool) -> Condition {
+        let holds = !is(self.state.single.axes[axis].outcome);
+        self.shown_outcome(axis, format!("not {left}"), holds).after(|| {
+            if self.spindle(axis).is_none() {
+                return self.axis(axis, axis_to_nck::start_positioning_axis, false);
+            }
+            Condition::All(SpindleOrder::ALL.map(|order| self.axis(axis, order.start(), false)).into())
+        })
     }
 }

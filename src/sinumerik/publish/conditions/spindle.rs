@@ -15,15 +15,24 @@ use crate::variables::{Input, Place, six_decimals};
 
 /// The signals.
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
-    Row::new(axis_from_nck::spindle_no_axis, |look, axis| {
-        look.of_spindle(axis, |_, spindle| {
-            let holds = spindle.mode != Mode::Axis || look.state.axes[axis].speed_controlled;
-            vec![fact(format!("{} is in spindle operation, not an axis (M70)", look.axis_name(axis)), holds).into()]
-        })
-    }),
+    Row::with(
+        axis_from_nck::spindle_no_axis,
+        |look, axis| {
+            let words = "one with M3, M4, M5 or SPOS";
+            look.of_spindle(axis, |_, spindle| {
+                vec![look.spindle_operation(axis, spindle, true).after(|| look.by_program(axis, words))]
+            })
+        },
+        |look, axis| match look.spindle(axis) {
+            Some((_, spindle)) => {
+                look.spindle_operation(axis, spindle, false).after(|| look.by_program(axis, "one with M70"))
+            }
+            None => Condition::from(look.is_spindle(axis)).opposite(),
+        },
+    ),
     Row::with(
         axis_from_nck::change_gear_stage,
-        |look, axis| look.of_spindle(axis, |_, spindle| vec![look.gear_change(axis, spindle, true).into()]),
+        |look, axis| look.of_spindle(axis, |_, spindle| vec![look.gear_change_begins(axis, spindle)]),
         |look, axis| look.no_gear_change(axis),
     ),
     Row::new(axis_from_nck::speed_limit_exceeded, |look, axis| {
@@ -31,18 +40,17 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
     }),
     Row::new(axis_from_nck::setpoint_speed_limited, |look, axis| {
         look.of_spindle(axis, |_, spindle| {
-            let what = format!(
-                "the commanded speed of {} is above a limit (MD35100, MD35130, SD43220, MD35160 with 3.6)",
-                look.axis_name(axis)
-            );
-            vec![fact(what, spindle.limited).into()]
+            vec![look.bounded(
+                axis,
+                spindle,
+                "above a limit (MD35100, MD35130, SD43220, MD35160 with 3.6)",
+                spindle.limited,
+            )]
         })
     }),
     Row::new(axis_from_nck::setpoint_speed_increased, |look, axis| {
         look.of_spindle(axis, |_, spindle| {
-            let what =
-                format!("the commanded speed of {} is below its minimum (MD35140, SD43210)", look.axis_name(axis));
-            vec![fact(what, spindle.raised).into()]
+            vec![look.bounded(axis, spindle, "below its minimum (MD35140, SD43210)", spindle.raised)]
         })
     }),
     Row::new(axis_from_nck::spindle_in_setpoint_range, |look, axis| {
@@ -58,13 +66,25 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
             vec![Fact::new(what, speed(velocity), wanted, velocity >= limit).into()]
         })
     }),
-    Row::new(axis_from_nck::positioning_mode, |look, axis| {
-        look.of_spindle(axis, |_, spindle| {
-            let holds = matches!(spindle.mode, Mode::Positioning(_));
-            let what = format!("a program (SPOS, SPOSA, M19) or the PLC positions {}", look.axis_name(axis));
-            vec![fact(what, holds).into()]
-        })
-    }),
+    Row::with(
+        axis_from_nck::positioning_mode,
+        |look, axis| {
+            look.of_spindle(axis, |_, spindle| {
+                let by_program = || look.by_program(axis, "one with SPOS, SPOSA or M19");
+                let starts = || Condition::Any(vec![by_program(), look.start_by_plc(axis)]);
+                vec![look.positioning_spindle(axis, spindle, true).after(starts)]
+            })
+        },
+        |look, axis| match look.spindle(axis) {
+            Some((_, spindle)) => look.positioning_spindle(axis, spindle, false).after(|| {
+                if look.state.single.axes[axis].spindle.is_some() {
+                    return Condition::Any(look.ends_of_spindle_function(axis));
+                }
+                look.by_program(axis, "one with M3, M4, M5 or M70, or the end of the program")
+            }),
+            None => Condition::from(look.is_spindle(axis)).opposite(),
+        },
+    ),
     Row::with(
         axis_from_nck::oscillation_mode,
         |look, axis| look.of_spindle(axis, |_, spindle| vec![look.oscillates(axis, spindle)]),
@@ -109,6 +129,38 @@ impl<'a> Look<'a> {
             Some((own, spindle)) => Condition::All(all(own, spindle)),
             None => self.is_spindle(axis).into(),
         }
+    }
+
+    fn spindle_operation(self, axis: AxisNumber, spindle: &Spindle, wanted: bool) -> Fact {
+        let is_spindle = spindle.mode != Mode::Axis || self.state.axes[axis].speed_controlled;
+        let word = |is: bool| if is { "spindle operation" } else { "axis operation (M70)" };
+        Fact::new(
+            format!("operation of {}", self.axis_name(axis)),
+            word(is_spindle),
+            word(wanted),
+            is_spindle == wanted,
+        )
+    }
+
+    fn positioning_spindle(self, axis: AxisNumber, spindle: &Spindle, wanted: bool) -> Fact {
+        let positions = matches!(spindle.mode, Mode::Positioning(_));
+        let what = format!("a program or the PLC positions {}", self.axis_name(axis));
+        Fact::new(what, yes(positions), yes(wanted), positions == wanted)
+    }
+
+    /// The speed that a program or a key wants, against its limits.
+    fn bounded(self, axis: AxisNumber, spindle: &Spindle, wanted: &str, holds: bool) -> Condition {
+        let found = if spindle.is_programmed() {
+            format!("S{} at {}", spindle.speed, speed(spindle.commanded.abs()))
+        } else {
+            speed(spindle.commanded.abs())
+        };
+        Fact::new(format!("commanded speed of {}", self.axis_name(axis)), found, wanted, holds).into()
+    }
+
+    fn gear_change_begins(self, axis: AxisNumber, spindle: &Spindle) -> Condition {
+        self.gear_change(axis, spindle, true)
+            .after(|| self.by_program(axis, "one with M41 to M45, or M40 with S, of another gear stage"))
     }
 
     fn gear_change(self, axis: AxisNumber, spindle: &Spindle, wanted: bool) -> Fact {
