@@ -4,12 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::messages;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, MessageCount, Parameter, Place, RaisedAlarm, short_text};
+use crate::variables::{AlarmNumber, EventId, LongTexts, MessageCount, Parameter, Place, RaisedAlarm, short_text};
 
 /// How many messages can be pending; more are counted and not shown.
 const PENDING: usize = 64;
-/// How many different long texts are kept; of further ones the beginning is shown.
-const TEXTS: usize = 4096;
 
 /// A parameter of a message before it is raised.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +38,8 @@ pub(super) struct Pending {
     pub cleared: EventId,
     /// Those that were raised in this cycle although they were pending, as a control reports each of them.
     again: Vec<RaisedAlarm>,
-    /// Texts that are too long for a parameter. They stay: the trace reads them later.
-    texts: Vec<String>,
+    /// Texts that are too long for a parameter.
+    texts: LongTexts,
 }
 
 impl Pending {
@@ -53,26 +51,14 @@ impl Pending {
             Detail::Number(number) => Parameter::Number(number),
             Detail::Text(text) => {
                 let short = short_text(&text);
-                if short.len() == text.len() {
-                    return Parameter::Text(short);
-                }
-                let known = self.texts.iter().position(|other| *other == text);
-                let index = known.or_else(|| {
-                    (self.texts.len() < TEXTS).then(|| {
-                        self.texts.push(text);
-                        self.texts.len() - 1
-                    })
-                });
-                let index = index.and_then(|index| u32::try_from(index).ok());
-                index.map_or(Parameter::Text(short), Parameter::OfControl)
+                if short.len() == text.len() { Parameter::Text(short) } else { self.texts.keep(&text) }
             }
         }
     }
 
     /// A text that is kept.
     pub(super) fn text(&self, index: u32) -> &str {
-        let index = usize::try_from(index).ok();
-        index.and_then(|index| self.texts.get(index)).map_or("", String::as_str)
+        self.texts.get(index)
     }
 
     /// Raises a message. `other` is the second axis that it names.

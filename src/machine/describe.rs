@@ -39,6 +39,12 @@ impl Describe for Machine {
             }
             text = text.replace(&format!("%{}", index + 1), &shown(self, *parameter));
         }
+        // A text of an alarm that has no place for it says why.
+        if let last @ Parameter::OfControl(_) = alarm.parameters[3]
+            && !row.text.contains("%4")
+        {
+            text = format!("{text}: {}", shown(self, last));
+        }
         text
     }
 

@@ -327,12 +327,16 @@ impl Parser<'_> {
     fn new_name(&mut self) -> Result<(String, Span), Fault> {
         let at = self.here();
         let Some(name) = self.name() else {
-            return Err(self.syntax("a name is missing; its first two characters are letters or `_`"));
+            return Err(self.syntax("no name: its first two characters are letters or `_`"));
         };
         if is_keyword(name) {
-            return Err(self.syntax("a word of the language is no name"));
+            return Err(self.syntax(format!("{name} is a word of the language, and no name of a variable")));
         }
-        if name.len() < 2 || name.bytes().take(2).any(|byte| byte.is_ascii_digit()) {
+        if name.len() == 1 {
+            let what = if self.axes.find(name).is_some() { "an axis" } else { "an address" };
+            return Err(self.syntax(format!("{name} is {what}: a name has two letters or `_` at its beginning")));
+        }
+        if name.bytes().take(2).any(|byte| byte.is_ascii_digit()) {
             return Err(self.syntax("the first two characters of a name are letters or `_`"));
         }
         self.at += 1;

@@ -12,6 +12,7 @@ use super::dialect::Dialect;
 use super::environment::Environment;
 use super::evaluate::evaluate;
 use super::expression::Expression;
+use super::function::Function;
 use super::head::Head;
 use super::macros::{define, expanded, is_definition};
 use super::names::AxisNames;
@@ -24,6 +25,7 @@ use super::value::{Type, Value};
 use super::variables::{Content, Variable, index};
 use super::vocabulary::Command;
 use super::waiting::{Wait, wait};
+use super::words::is_address;
 
 /// Calculation blocks in one call, so that an endless loop does not hold the channel.
 const CALCULATIONS: usize = 100; // as the documentation of `next` says
@@ -440,6 +442,8 @@ pub(super) fn taken(name: &str, is_known: bool, axes: &AxisNames, dialect: &Dial
         Some("an axis has this name")
     } else if dialect.function(name).is_some() || Command::find(name).is_some() || dialect.refused(name).is_some() {
         Some("the language has a word of this name")
+    } else if is_address(name) || Function::find(name).is_some() {
+        Some("the language has an address or a function of this name")
     } else {
         None
     }

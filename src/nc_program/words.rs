@@ -33,6 +33,11 @@ pub(super) const ADDRESSES: &[(&str, Address, Option<bool>)] = &[
     ("DL", Address::SumOffset, Some(false)),
 ];
 
+/// Whether a name is an address of several letters.
+pub(super) fn is_address(name: &str) -> bool {
+    ADDRESSES.iter().any(|row| row.0 == name)
+}
+
 /// Letters with a meaning of their own. All but I, J, K and P may have an extension.
 const LETTERS: &[(char, Address)] = &[
     ('F', Address::F),
@@ -165,7 +170,7 @@ impl Parser<'_> {
         if is_keyword(name) {
             return Err(Fault::new(12080, at, "this word of the language does not belong here"));
         }
-        if ADDRESSES.iter().any(|row| row.0 == name) {
+        if is_address(name) {
             return Err(Fault::new(12080, at, "`=` and a value must follow"));
         }
         if is_assigned || is_indexed {

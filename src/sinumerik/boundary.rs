@@ -11,9 +11,10 @@ use crate::control::{
 use crate::image::{FromNck, Hmi, Names, NckHmi, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
 use crate::nc_program::Program;
+use crate::sinumerik::activation::shown;
 use crate::sinumerik::jog::state::HANDWHEELS;
 use crate::sinumerik::machine_data::{Target, by_identifier};
-use crate::sinumerik::nck::{Nck, shown};
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::texts::TEXTS;
 use crate::sinumerik::user::state::UserReaction;
 use crate::source::Problem;
@@ -239,6 +240,10 @@ impl Control for Nck {
 
     fn program_text(&self, path: &str, all: bool) -> Option<String> {
         self.programs.archive(path, all)
+    }
+
+    fn message_text(&self, index: u32) -> &str {
+        self.state.reasons.get(index)
     }
 
     fn load_programs(&mut self, programs: Vec<Program>, search_path: Vec<String>) {

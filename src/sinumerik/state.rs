@@ -24,7 +24,7 @@ use crate::sinumerik::single_axis::state::SingleAxes;
 use crate::sinumerik::spindle::state::Spindle;
 use crate::sinumerik::user::state::User;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
-use crate::variables::{EventId, Place, RParameters};
+use crate::variables::{EventId, LongTexts, Place, RParameters};
 
 /// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -101,6 +101,8 @@ pub(super) struct State {
     pub groupings: ArrayVec<Grouping, GROUPINGS>,
     pub units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
     pub alarms: alarms::pending::Pending,
+    /// Why blocks of programs could not be executed, in words. They outlast power off: the trace reads them later.
+    pub reasons: LongTexts,
     pub feedback: PerAxis<Feedback>,
     pub summary: Summary,
     pub handwheels: [Handwheel; HANDWHEELS],
@@ -152,6 +154,7 @@ impl State {
             groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),
             units: ArrayVec::new(),
             alarms: alarms::pending::Pending::default(),
+            reasons: LongTexts::default(),
             feedback: PerAxis::default(),
             summary: Summary::default(),
             handwheels: Default::default(),

@@ -46,6 +46,35 @@ pub fn short_text(text: &str) -> ShortText {
     short
 }
 
+/// How many different long texts are kept; of further ones the beginning is shown.
+const LONG_TEXTS: usize = 4096;
+
+/// The longer texts of a control's alarms, for [`Parameter::OfControl`]. They stay: the trace reads them later.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LongTexts(Vec<String>);
+
+impl LongTexts {
+    /// A parameter with this text, which is kept.
+    pub fn keep(&mut self, text: &str) -> Parameter {
+        let known = self.0.iter().position(|other| other == text);
+        let index = known.or_else(|| {
+            (self.0.len() < LONG_TEXTS).then(|| {
+                self.0.push(text.to_owned());
+                self.0.len() - 1
+            })
+        });
+        let index = index.and_then(|index| u32::try_from(index).ok());
+        index.map_or_else(|| Parameter::Text(short_text(text)), Parameter::OfControl)
+    }
+
+    /// The text of an index; empty if there is none.
+    #[must_use]
+    pub fn get(&self, index: u32) -> &str {
+        let index = usize::try_from(index).ok();
+        index.and_then(|index| self.0.get(index)).map_or("", String::as_str)
+    }
+}
+
 /// Number of an alarm in the list of the manual. Numbers from [`AlarmNumber::OWN`] on stand for alarms that have only a name (O-18).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct AlarmNumber(pub u32);

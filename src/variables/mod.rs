@@ -13,7 +13,9 @@ pub mod nc;
 mod place;
 mod r_parameters;
 
-pub use alarms::{AlarmNumber, Alarms, Arrival, MessageCount, Parameter, RaisedAlarm, ShortText, short_text};
+pub use alarms::{
+    AlarmNumber, Alarms, Arrival, LongTexts, MessageCount, Parameter, RaisedAlarm, ShortText, short_text,
+};
 pub use axis_value::{AxisValue, six_decimals};
 pub use channel_values::{ChannelValues, ProgramName, program_name};
 pub use events::{BlockName, Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};

@@ -42,6 +42,8 @@ const ALARMS: &[(u32, &str, &str, &str, bool)] = &[
     (12160, "1", "1EX999", "R1=1EX999\nM30", true),
     (12170, "2", "AB", "DEF INT AB\nDEF REAL AB\nM30", true),
     (12170, "1", "STOPRE", "DEF INT STOPRE\nM30", true),
+    (12170, "1", "CR", "DEF REAL CR\nM30", true),
+    (12170, "1", "SIN", "DEF REAL SIN\nM30", true),
     (12260, "1", "AB", "DEF INT AB[2]=SET(1,2,3)\nM30", true),
     (12400, "2", "AB", "DEF INT AB[2]\nR1=AB\nM30", true),
     (12400, "1", "R", "R1=R\nM30", true),
@@ -159,6 +161,21 @@ fn each_number_is_raised_by_a_smallest_program() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A name that cannot be one is explained: it is an axis, an address, a word of the language.
+#[test]
+fn a_wrong_name_of_a_variable_is_explained() {
+    for (text, words) in [
+        ("DEF INT I", "I is an address"),
+        ("DEF REAL X", "X is an axis"),
+        ("DEF INT IF", "IF is a word of the language"),
+        ("DEF INT A1", "its first two characters are letters"),
+        ("PROC SUB(INT N)", "N is an address"),
+    ] {
+        let found = alarm(&format!("{text}\nM30"));
+        assert!(found.number == 12080 && found.reason.contains(words), "{text}: {found}");
+    }
 }
 
 #[test]

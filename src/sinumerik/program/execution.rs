@@ -415,7 +415,13 @@ impl State {
     /// Everything before a block that cannot be executed has been executed: its alarm appears, and the program stops.
     pub(super) fn raise_block_alarm(&mut self, alarm: BlockAlarm, run: &Run, stage: &Stage<'_>) {
         let place = Place::Channel(stage.channel);
-        let [second, third, fourth] = alarm.parameters;
+        let [second, third, mut fourth] = alarm.parameters;
+        if let Preparation::Failed { alarm: failed, reason, .. } = &run.preparation
+            && *failed == alarm
+            && !reason.is_empty()
+        {
+            fourth = self.reasons.keep(reason);
+        }
         let shown = [Parameter::Channel(stage.channel), second, third, fourth];
         let input = Input::Block(alarm.block);
         let event = self.log.note_one(place, Rule::BlockNotExecutable, input, run.block_cause);
@@ -445,7 +451,8 @@ impl State {
             let moving: AxisSet = run.positionings.iter().map(|positioning| positioning.axis).collect();
             run.commanded = run.commanded.and(moving);
             let is_soft = block.modal.is(g::SOFT);
-            run.path.set_jerk_window(if is_soft { stage.own.jerk_window } else { 1 });
+            let counted = block.way.map_or(stage.own.axes.counted, |block| block.way.counted());
+            run.path.set_jerk_window(if is_soft { stage.own.jerk.window(counted) } else { 1 });
         }
         (run.dwell, run.dwell_turns) = (block.dwell, block.dwell_turns);
         let positions = block.positions.clone();

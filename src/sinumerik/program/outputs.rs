@@ -101,12 +101,12 @@ impl Preparing<'_> {
         })
     }
 
-    /// The number of a spindle that a function names and the channel, which has spindles, does not have (16100).
+    /// The number of a spindle that a function names and the channel does not have (16100, P-143). Without a number a function concerns the
+    /// master spindle, and without one it is only output.
     pub(super) fn unknown_spindle(&self, block: &Block) -> Option<u16> {
         let mut named = block.auxiliary.iter().filter(|function| concerns_spindle(function));
         let is_unknown = |number: &u16| *number != 0 && self.own.spindle(*number).is_none();
-        let unknown = named.find_map(|function| function.extension.filter(is_unknown));
-        unknown.filter(|_| !self.own.spindles.is_empty())
+        named.find_map(|function| function.extension.filter(is_unknown))
     }
 
     fn programmed_stop(&self, function: &AuxiliaryFunction) -> ProgrammedStop {

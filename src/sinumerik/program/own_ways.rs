@@ -109,7 +109,7 @@ impl Run {
         self.queue.clear();
         self.again.clear();
         let place = (next.origin.program, next.origin.line);
-        self.preparation = Preparation::Failed { alarm, place, block: next.block };
+        self.preparation = Preparation::Failed { alarm, reason: String::new(), place, block: next.block };
     }
 
     /// Whether the program stands before a block with 10610, while its axis still moves.

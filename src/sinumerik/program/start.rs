@@ -317,6 +317,7 @@ impl State {
     /// What outlasts power off: R parameters, the selected programs, settable offsets.
     pub(in crate::sinumerik) fn keep_programs(&mut self, before: &Self) {
         self.r_parameters.keep(&before.r_parameters);
+        self.reasons.clone_from(&before.reasons);
         for (channel, program) in self.programs.iter_mut() {
             let old = &before.programs[channel];
             program.selected.clone_from(&old.selected);

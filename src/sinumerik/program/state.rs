@@ -192,6 +192,8 @@ pub(in crate::sinumerik) enum Preparation {
     /// A block cannot be executed. `block` is prepared again after a correctable alarm of the channel.
     Failed {
         alarm: BlockAlarm,
+        /// Why, in words; empty if the alarm says it.
+        reason: String,
         /// The path of its program, and the line.
         place: (String, u32),
         block: Option<Box<ReadBlock>>,
@@ -202,7 +204,8 @@ impl Preparation {
     /// A block that was read cannot be executed.
     pub(in crate::sinumerik) fn failed(alarm: BlockAlarm, block: Box<ReadBlock>) -> Self {
         let origin = &block.block.origin;
-        Self::Failed { alarm, place: (origin.program.clone(), origin.line), block: Some(block) }
+        let place = (origin.program.clone(), origin.line);
+        Self::Failed { alarm, reason: String::new(), place, block: Some(block) }
     }
 }
 

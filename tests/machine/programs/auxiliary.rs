@@ -28,14 +28,14 @@ fn m_functions_are_decoded_for_one_scan_in_the_order_of_the_program() {
 
 #[test]
 fn values_and_extensions_stand_at_their_places() {
-    let mut session = automatic("M12 M=13 S2=1500 T5 D1 H3=7.5\nM30");
+    let mut session = automatic("M12 M=13 S1500 T5 D1 H3=7.5\nM30");
     start(&mut session);
     session.wait("CHAN1.m_function_1_change && CHAN1.m_function_1 == 12", "1s").unwrap();
     for (address, value) in [
         ("DB21.DBW68", 0.0),
         ("DB21.DBD70", 12.0),
         ("DB21.DBD76", 13.0),
-        ("DB21.DBW98", 2.0),
+        ("DB21.DBW98", 0.0),
         ("DB21.DBW116", 0.0),
         ("DB21.DBW118", 5.0),
         ("DB21.DBB129", 1.0),

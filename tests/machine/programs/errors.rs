@@ -23,6 +23,23 @@ fn a_bad_block_stops_the_program_before_it() {
     session.expect("alarms() == 0 && CHAN1.program_state_aborted").unwrap();
 }
 
+/// The text of the alarm ends with the reason that `opennck nc check` prints (P-145), after power off and on, too.
+#[test]
+fn the_alarm_of_a_block_says_why() {
+    let why = "syntax error I: I is an address: a name has two letters or `_` at its beginning";
+    let mut session = automatic("N10 DEF INT I\nM30");
+    start(&mut session);
+    session.wait("alarm(12080)", "5s").unwrap();
+    assert!(session.text().contains(&format!("block N10 {why}")), "{}", session.text());
+    session.power_on().unwrap();
+    assert!(session.text().contains(why), "{}", session.text());
+    // An alarm that the channel finds has no more words than its text.
+    let mut session = automatic("G1 X2=5 F100\nM30");
+    start(&mut session);
+    session.wait("alarm(14092)", "5s").unwrap();
+    assert!(session.text().contains("wrong type of axis X2  ("), "{}", session.text());
+}
+
 #[test]
 fn a_bad_block_that_is_jumped_over_is_never_noticed() {
     let session = super::run("GOTOF GOOD\nFOO=3\nGOOD: X1 F6000\nM30");
@@ -49,6 +66,9 @@ fn each_error_has_its_alarm() {
         ("POS[Z]=1 FA[Z]=0\nM30", 10861),
         ("R100=1\nM30", 17020),
         ("SPOS=90\nM30", 16100),
+        // P-143: a function that names a spindle by its number needs it.
+        ("M3=3\nM30", 16100),
+        ("S2=500\nM30", 16100),
         ("G41 X1 F100\nM30", 12553),
         ("G0 A=DC(400)\nM30", 16830),
         ("G0 A400\nM30", 16830),
