@@ -12,6 +12,7 @@
 //! "Where to add something" in the documentation of the crate names the files for a signal, a machine datum, an alarm, a rule, a state of an
 //! axis and a step of referencing.
 
+mod activation;
 mod alarms;
 mod awake;
 mod axis;

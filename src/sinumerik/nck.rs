@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::control::{Activated, Changes, Owner, Taken, Value};
+use crate::control::{Activated, Changes, Taken};
 use crate::image::{Location, Part, ToNck};
 use crate::motion::Feedback;
 use crate::nc_program::Library;
 use crate::sinumerik::gantry::state::Phase as GroupingPhase;
-use crate::sinumerik::machine_data::{Effect, MachineData, Target};
+use crate::sinumerik::machine_data::{MachineData, Target};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisPresence;
 use crate::sinumerik::referencing::state::Phase as ApproachPhase;
@@ -19,7 +19,7 @@ use crate::sinumerik::state::{Standing, State};
 use crate::sinumerik::strobe::Strobe;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, PerAxis};
-use crate::variables::{DatumValue, EventId, FaultName, Input, Place};
+use crate::variables::{EventId, FaultName, Input, Place};
 
 /// The control.
 ///
@@ -35,7 +35,7 @@ pub struct Nck {
     /// The profile is that of the 828D.
     is_828d: bool,
     /// The axes whose MD30350 was entered at the control, and those whose entry is active (E-26).
-    output_entered: [AxisSet; 2],
+    pub(super) output_entered: [AxisSet; 2],
     pub(super) parameters: Arc<Parameters>,
     pub(super) state: Box<State>,
     pub(super) resting: Box<Resting>,
@@ -45,7 +45,7 @@ pub struct Nck {
     /// The cancel key was pressed at the edge of this cycle: its event. The stage resets it, so no saved machine contains it.
     cancel_key: EventId,
     /// The machine data that became active, until the machine has recorded them.
-    activated: Vec<Activated>,
+    pub(super) activated: Vec<Activated>,
 }
 
 impl Clone for Nck {
@@ -140,6 +140,8 @@ impl Nck {
 
     /// Power off and on: stored machine data become active, everything else starts again.
     pub fn power_on(&mut self) -> EventId {
+        // What the last cycle wants to store outlasts power off.
+        self.store_differences();
         self.store_encoder_data();
         let cycle = self.state.log.cycle;
         let changes_system =
@@ -201,65 +203,6 @@ impl Nck {
     #[must_use]
     pub fn stored(&self) -> &MachineData {
         &self.stored
-    }
-
-    /// Stores a machine datum. It takes effect as its class defines.
-    ///
-    /// # Errors
-    /// The value does not fit the datum, or only the control may write it. In this case nothing has changed.
-    pub fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
-        Arc::make_mut(&mut self.stored).set(target, value)?;
-        if let (30350, Owner::Axis(axis)) = (target.datum().number, target.owner()) {
-            self.output_entered[0].set(axis, true);
-        }
-        if target.datum().effect == Effect::Immediate {
-            self.activate(Effect::Immediate, EventId::NONE);
-        }
-        Ok(())
-    }
-
-    /// "Set machine data active".
-    pub fn new_conf(&mut self) -> EventId {
-        let event = self.state.log.note_plain(Place::Nck, Rule::SetActive, EventId::NONE);
-        self.activate(Effect::NewConf, event);
-        event
-    }
-
-    /// Activates the stored data of a class and of the lower classes, after this event.
-    pub(super) fn activate(&mut self, level: Effect, cause: EventId) {
-        if Arc::ptr_eq(&self.stored, &self.active) {
-            return;
-        }
-        let before = Arc::clone(&self.active);
-        Arc::make_mut(&mut self.active).activate(&self.stored, level);
-        self.parameters = Arc::new(self.parameters_now());
-        self.state.prepare_position_control(&self.parameters);
-        self.resting.wake_all();
-        self.note_activated(&before, Rule::DataActive, cause);
-    }
-
-    /// Records one event for all data that became active, and remembers them for the record of the machine.
-    pub(super) fn note_activated(&mut self, before: &MachineData, rule: Rule, cause: EventId) {
-        let changed = self.active.differences(before);
-        let shown = |target: &Target| shown(&self.active, target);
-        let mut inputs = [Input::None; 3];
-        let numbers = changed.iter().filter_map(|target| Some((target, shown(target).value?)));
-        for (input, (target, value)) in inputs.iter_mut().zip(numbers) {
-            *input = Input::Datum(target.datum().number, axis_of(target), value);
-        }
-        if changed.is_empty() {
-            return;
-        }
-        let event = self.state.log.note(Place::Nck, rule, inputs, cause);
-        for target in &changed {
-            self.state.log.activated(target.datum().number, axis_of(target), event);
-            self.activated.push(Activated { datum: shown(target), event });
-        }
-    }
-
-    /// The data that became active since the last call.
-    pub(super) fn take_activated(&mut self) -> Vec<Activated> {
-        std::mem::take(&mut self.activated)
     }
 
     /// A fault of an axis began or ended. It can move the axes `affected`, or change what their drives and encoders report.
@@ -469,29 +412,5 @@ impl Nck {
         self.state.log.taken = taken;
         self.resting.begin_anew(&self.state);
         Ok(())
-    }
-}
-
-/// The axis of an axial datum.
-pub(super) fn axis_of(target: &Target) -> Option<AxisNumber> {
-    match target.owner() {
-        Owner::Axis(axis) => Some(axis),
-        Owner::Nck | Owner::Channel(_) => None,
-    }
-}
-
-/// A datum with its value in these data, for the trace.
-pub(super) fn shown(data: &MachineData, target: &Target) -> DatumValue {
-    let place = match target.owner() {
-        Owner::Nck => Place::Nck,
-        Owner::Channel(channel) => Place::Channel(channel),
-        Owner::Axis(axis) => Place::Axis(axis),
-    };
-    DatumValue {
-        number: target.datum().number,
-        place,
-        index: (target.datum().count > 1).then_some(target.index()),
-        value: data.get(target).and_then(|value| value.number()),
-        word: None,
     }
 }

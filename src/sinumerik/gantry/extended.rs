@@ -4,7 +4,7 @@
 //! difference itself is tested. It acts once all axes of the grouping have been referenced after power on, with an absolute
 //! encoder once they have been synchronised (MON-10).
 //!
-//! A trip in extended monitoring writes the difference into MD37135, in the next cycle. 10653 then stays, also without the difference,
+//! A trip in extended monitoring writes the difference into MD37135, in the next cycle, or before a power off that comes earlier. 10653 then stays, also without the difference,
 //! until a RESET at which MD37150 bit 0 = 0 and MD37135 = 0 are in effect (MON-11; both become active by this RESET). After power off and
 //! on, 10657 is raised instead if MD37150 bit 0 = 1 and MD37135 is not 0; either of bit 0 = 0 and MD37135 = 0 lets a RESET cancel it (C-77). This
 //! RESET also ends extended monitoring: with bit 0 = 1 again it acts only after the next referencing or synchronisation of the grouping

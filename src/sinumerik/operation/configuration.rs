@@ -5,9 +5,10 @@
 //! them once. After 4110 the stored MD10070 keeps its value, so each power on raises it again. 4113 is not raised: no source says which
 //! values of MD10050 a control changes.
 
+use crate::sinumerik::activation::axis_of;
 use crate::sinumerik::alarms;
 use crate::sinumerik::machine_data::MachineData;
-use crate::sinumerik::nck::{Nck, axis_of};
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::configuration::ChannelFault;
 use crate::sinumerik::rules::Rule;

@@ -16,9 +16,10 @@
 use std::sync::Arc;
 
 use crate::motion::Setpoint;
+use crate::sinumerik::activation::axis_of;
 use crate::sinumerik::alarms;
 use crate::sinumerik::machine_data::MachineData;
-use crate::sinumerik::nck::{Nck, axis_of};
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::{ADJUSTED, AxisParameters, Kind, Scale};
 use crate::sinumerik::referencing::state::{Buffered, EncoderDatum};
