@@ -162,7 +162,7 @@ fn names(machine: Option<&Path>) -> Result<AxisNames, Problem> {
     if let Some(machine) = machine {
         let machine = Machine::open(machine)?;
         let axes = machine.names().axes.iter().filter_map(|(_, name)| name.clone());
-        rows.extend(axes.map(|name| AxisName { name, kind: AxisKind::Any, is_beyond_modulo: false }));
+        rows.extend(axes.map(|name| AxisName::new(name, AxisKind::Any)));
     }
     Ok(AxisNames::new(rows))
 }

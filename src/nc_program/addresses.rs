@@ -5,7 +5,7 @@ use super::auxiliary::{AuxiliaryKind, judged_value};
 use super::composer::{Composer, UNKNOWN};
 use super::expression::Expression;
 use super::functions::g;
-use super::names::{AxisIndex, AxisKind};
+use super::names::{AxisIndex, AxisKind, AxisName};
 use super::prepared::{Action, AuxiliaryFunction, AxisWord, Centre, Dimension, End, predefined_group};
 use super::syntax::{Address, AddressWord, Modifier};
 use super::value::Value;
@@ -138,11 +138,22 @@ impl Composer<'_> {
     fn target(&mut self, axis: AxisIndex, word: &AddressWord) -> Result<AxisWord, Fault> {
         let value = self.number(&word.value, word.at)?;
         let dimension = match word.modifier {
-            None => self.default_dimension(),
+            None => self.default_dimension_of(axis),
             Some(modifier) => dimension(modifier, word.at)?,
         };
         self.judge(axis, dimension, value, word.at)?;
         Ok(AxisWord { axis, value, dimension })
+    }
+
+    /// G90 or G91; G90 of a modulo axis can be DC (MD30455 bit 2). An offset or a limit has no way.
+    pub(super) fn default_dimension_of(&self, axis: AxisIndex) -> Dimension {
+        let takes_shortest = |row: &AxisName| row.kind == AxisKind::Modulo && row.is_shortest_by_default;
+        match self.default_dimension() {
+            Dimension::Absolute if self.is_motion() && self.scope.axes().row(axis).is_some_and(takes_shortest) => {
+                Dimension::Shortest
+            }
+            dimension => dimension,
+        }
     }
 
     /// DC needs a rotary axis, ACP and ACN a modulo axis. Every absolute position of a modulo axis is in its range, unless MD30455 allows others.

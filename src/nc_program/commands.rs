@@ -295,7 +295,7 @@ impl Composer<'_> {
                     return Ok(MainRunAction::AxisFeed(axis, value));
                 }
                 let dimension = match word.modifier {
-                    None => self.default_dimension(),
+                    None => self.default_dimension_of(axis),
                     Some(modifier) => dimension(modifier, word.at)?,
                 };
                 return Ok(MainRunAction::Position { axis, value, dimension });

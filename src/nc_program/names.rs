@@ -15,6 +15,16 @@ pub struct AxisName {
     pub kind: AxisKind,
     /// Absolute positions outside 0 to 359.999 are allowed (MD30455 bit 0).
     pub is_beyond_modulo: bool,
+    /// A modulo axis that takes the shortest way with G90, as with DC (MD30455 bit 2).
+    pub is_shortest_by_default: bool,
+}
+
+impl AxisName {
+    /// A name without the functions of MD30455.
+    #[must_use]
+    pub fn new(name: impl Into<String>, kind: AxisKind) -> Self {
+        Self { name: name.into(), kind, is_beyond_modulo: false, is_shortest_by_default: false }
+    }
 }
 
 /// What absolute positions, DC, ACP and ACN need to know.
@@ -56,8 +66,7 @@ impl AxisNames {
     /// A table of names of one kind, for tests and checks.
     #[must_use]
     pub fn of(kind: AxisKind, names: &[&str]) -> Self {
-        let row = |name: &&str| AxisName { name: (*name).to_owned(), kind, is_beyond_modulo: false };
-        Self::new(names.iter().map(row))
+        Self::new(names.iter().map(|name| AxisName::new(*name, kind)))
     }
 
     /// What programs use if no machine names its axes: the usual letters, alone and with a number.
@@ -69,8 +78,7 @@ impl AxisNames {
             names.extend((1..=31).map(|number| format!("{letter}{number}")));
         }
         names.extend((1..=31).map(|number| format!("AX{number}")));
-        let row = |name| AxisName { name, kind: AxisKind::Any, is_beyond_modulo: false };
-        Self::new(names.into_iter().map(row))
+        Self::new(names.into_iter().map(|name| AxisName::new(name, AxisKind::Any)))
     }
 
     /// All names, in the order of their indices.

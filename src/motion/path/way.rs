@@ -118,6 +118,12 @@ impl Way {
         self.length
     }
 
+    /// The axes to which the feed refers.
+    #[must_use]
+    pub const fn counted(&self) -> [bool; PATH_AXES] {
+        self.counted
+    }
+
     /// Its start.
     #[must_use]
     pub const fn start(&self) -> PerPathAxis {

@@ -32,7 +32,7 @@ pub(super) struct Channel {
 
 impl Channel {
     pub(super) fn new() -> Self {
-        let row = |name: &str, kind| AxisName { name: name.to_owned(), kind, is_beyond_modulo: false };
+        let row = |name: &str, kind| AxisName::new(name, kind);
         let axes = AxisNames::new([
             row("X", AxisKind::Linear),
             row("Y", AxisKind::Linear),

@@ -27,8 +27,9 @@ Axis {
     30350 SIMU_AX_VDI_OUTPUT simu_ax_vdi_output: bool = false; "", Range::ANY, PowerOn;
     /// concurrent positioning axis; ignored with alarm 4300 on a synchronous axis
     30450 IS_CONCURRENT_POS_AX is_concurrent_pos_ax: bool = false; "", Range::ANY, Reset;
-    /// bit 0: absolute positions of a modulo axis outside of 0 to 359.999 count modulo 360 degrees, without alarm 16830; the other bits are not
-    /// modelled
+    /// bit 0: absolute positions of a modulo axis outside of 0 to 359.999 count modulo 360 degrees, without alarm 16830; bit 1: the reference of
+    /// a rotary axis with distance-coded marks is within the modulo range; bit 2: G90 of a modulo axis takes the shortest way; bit 3: $VA_IM is
+    /// the actual value, also with axis disable
     30455 MISC_FUNCTION_MASK misc_function_mask: u32 = 0; "", Range::ANY, Reset;
     /// bit 4: only the PLC moves the axis; bit 5: permanent PLC axis; bit 6: feed disable (6.0) does not act on a PLC axis; bit 7: 36.3
     /// "all axes stationary" leaves a PLC axis out

@@ -83,6 +83,8 @@ pub struct Reference {
     pub absolute_offset: PerEncoder<Position>,
     /// MD34300, MD34310, MD34320.
     pub scale: PerEncoder<Scale>,
+    /// MD30455 bit 1 of a rotary axis: start and size of the range in which distance-coded marks give a position (MD30340, MD30330).
+    pub modulo_range: Option<[Position; 2]>,
     /// MD34330: the axis does not travel to MD34100.
     pub stops_at_marks: PerEncoder<bool>,
     /// MD35000: a spindle. It has no reference point approach against a cam, and NC start does not need its reference.
@@ -228,6 +230,10 @@ pub struct AxisParameters {
     pub modulo: bool,
     /// MD30455 bit 0: absolute positions outside of 0 to 359.999 degrees are possible.
     pub beyond_modulo: bool,
+    /// MD30455 bit 2: G90 positions it on the shortest way.
+    pub shortest_by_default: bool,
+    /// MD30455 bit 3: $VA_IM is the actual value, also with axis disable.
+    pub actual_while_disabled: bool,
     /// MD36100 and MD36120, MD36110 and MD36130.
     pub software_limits: [[Position; 2]; 2],
     /// MD32000 / MD36610.
@@ -310,6 +316,8 @@ pub(super) fn axis(
         limit_without_ramp: md.brake_mode_choice == 1,
         modulo: md.is_rot_ax && md.rot_is_modulo,
         beyond_modulo: md.misc_function_mask & 1 == 1,
+        shortest_by_default: md.misc_function_mask & 4 != 0,
+        actual_while_disabled: md.misc_function_mask & 8 != 0,
         software_limits: [
             [md.pos_limit_minus, md.pos_limit_minus2].map(Position::from_user),
             [md.pos_limit_plus, md.pos_limit_plus2].map(Position::from_user),
@@ -355,6 +363,8 @@ fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -
             shift: Position::from_user(md.enc_marker_inc[encoder]),
             inverted: md.enc_invers[encoder],
         }),
+        modulo_range: (md.is_rot_ax && md.misc_function_mask & 2 != 0)
+            .then(|| [md.modulo_range_start, md.modulo_range].map(Position::from_user)),
         stops_at_marks: md.refp_stop_at_abs_marker,
         is_spindle: md.spind_assign_to_machax != 0,
         creep_tolerance: md.spind_des_velo_tol,
@@ -377,6 +387,13 @@ impl Reference {
     #[must_use]
     pub(in crate::sinumerik) fn knows_position_before(&self, encoder: usize) -> bool {
         matches!(self.kind[encoder], Kind::DistanceCoded | Kind::Absolute)
+    }
+
+    /// A position that distance-coded marks gave.
+    #[must_use]
+    pub(in crate::sinumerik) fn coded(&self, position: Position) -> Position {
+        let Some([start, size]) = self.modulo_range else { return position };
+        start + Position::new((position - start).increments().rem_euclid(size.increments().max(1)))
     }
 
     /// Whether the machine data give this encoder a reference point approach.

@@ -12,6 +12,7 @@ pub(super) mod groupings;
 pub(super) mod mechanics;
 pub(super) mod monitoring;
 pub(super) mod overrides;
+mod path_jerk;
 pub(super) mod programs;
 pub(super) mod sag;
 pub(super) mod spindle;

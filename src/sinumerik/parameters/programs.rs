@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 
-use crate::motion::path::{Feed, LONGEST_WINDOW, PATH_AXES};
+use crate::motion::path::{Feed, PATH_AXES};
 use crate::nc_program::{AuxiliaryKind, AxisKind, AxisName, AxisNames, Block, GFunction, Modal};
 use crate::sinumerik::machine_data::{Channel, MachineData};
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
+use crate::sinumerik::parameters::path_jerk::PathJerk;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position, Time};
 
 /// When an auxiliary function is output (MD22200 to 22252).
@@ -172,8 +173,8 @@ pub(in crate::sinumerik) struct ProgramParameters {
     pub serupro_ignores_overrides: bool,
     /// MD22600 and MD22601.
     pub serupro_speed: (u8, f64),
-    /// MD32431 and MD20600: the cycles over which SOFT spreads a change of the acceleration.
-    pub jerk_window: usize,
+    /// What SOFT depends on.
+    pub jerk: PathJerk,
     /// SD42120 in mm/min.
     pub approach_feed: f64,
     /// SD42440.
@@ -290,7 +291,7 @@ pub(in crate::sinumerik) fn programs(
     let has_master = spindles.iter().any(|(number, _)| *number == md.spind_def_master_spind);
     let own_axes = program_axes(data, md, channel, axes);
     ProgramParameters {
-        jerk_window: jerk_window(data, &own_axes, axes, (md.max_path_jerk, cycle)),
+        jerk: PathJerk::new(data, &own_axes, axes, (md.max_path_jerk, cycle)),
         axes: own_axes,
         master_spindle: if has_master { md.spind_def_master_spind } else { 0 },
         spindles,
@@ -334,26 +335,6 @@ fn replaced_functions(data: &MachineData) -> Vec<(i32, String)> {
     rows.filter(|(number, name)| is_replaced(**number, name)).map(|(number, name)| (*number, name.clone())).collect()
 }
 
-/// The window of SOFT in cycles: with it no axis exceeds MD32431, and the path not MD20600, at any acceleration that the axes can have.
-fn jerk_window(
-    data: &MachineData,
-    own: &ProgramAxes,
-    axes: &PerAxis<AxisParameters>,
-    (path_jerk, cycle): (f64, Time),
-) -> usize {
-    const METRE: f64 = 1_000.0 * Position::PER_USER_UNIT;
-    let turn = |axis: AxisNumber| if axes[axis].rotary { 360.0 * Position::PER_USER_UNIT } else { METRE };
-    let time = |axis: &AxisNumber| axes[*axis].maximum_acceleration / (data.axes[*axis].max_ax_jerk * turn(*axis));
-    let of_axes = own.path.iter().map(time).fold(0.0, f64::max);
-    let along = own.path.iter().enumerate().filter(|(place, _)| own.counted[*place]);
-    let squares: f64 = along.map(|(_, axis)| axes[*axis].maximum_acceleration * axes[*axis].maximum_acceleration).sum();
-    let seconds = of_axes.max(squares.sqrt() / (path_jerk * METRE));
-    let cycles = (seconds / cycle.seconds() - 1e-6).ceil();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates, and is bounded")]
-    let cycles = cycles as usize;
-    cycles.clamp(1, LONGEST_WINDOW)
-}
-
 fn program_axes(
     data: &MachineData,
     md: &Channel,
@@ -388,6 +369,7 @@ fn program_axes(
             (true, true) => AxisKind::Modulo,
         },
         is_beyond_modulo: axes[*axis].beyond_modulo,
+        is_shortest_by_default: axes[*axis].shortest_by_default,
     };
     let is_synchronous = |axis: AxisNumber| data.axes[axis].gantry_axis_type > 10;
     let mut path = ArrayVec::<AxisNumber, PATH_AXES>::new();

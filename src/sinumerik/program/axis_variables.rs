@@ -106,6 +106,10 @@ impl Channel<'_> {
             }),
             "$VA_IM" => of(&|axis| {
                 let own = &axes[axis];
+                if own.signals.disabled_at.is_some() && !self.all.axes[axis].actual_while_disabled {
+                    // With axis disable the setpoint, unless MD30455 bit 3 says otherwise.
+                    return length(axis, own.setpoint.position + own.overlay.position());
+                }
                 length(axis, own.actual + own.overlay.position() + own.compensation.setpoint)
             }),
             "$AC_DRF" => of(&|axis| length(axis, axes[axis].overlay.target)),

@@ -15,6 +15,7 @@
 //! | `environment.rs` | what the language reads and writes: R parameters, system variables, machine data, programs |
 //! | `axis_variables.rs` | system variables of axes and spindles, settable offsets |
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
+//! | `prepared_actions.rs` | the actions of a block while it is prepared: their axes, spindles, channels; FGROUP, G25 |
 //! | `targets.rs` | targets of axis words: offsets, incremental dimensions, limits |
 //! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
 //! | `geometry.rs` | units, offsets, circles |
@@ -64,6 +65,7 @@ pub(super) mod own_ways;
 pub(super) mod path;
 pub(super) mod positioning;
 pub(super) mod preparation;
+mod prepared_actions;
 pub(super) mod preset;
 pub(super) mod referencing;
 pub(super) mod refused;

@@ -100,7 +100,7 @@ impl Approach {
             self.step(log, view.number, Rule::MarksTooFarApart, inputs);
             return Outcome::Running;
         }
-        let position = scale.position_of(first, mark) + reference.absolute_offset[view.encoder];
+        let position = reference.coded(scale.position_of(first, mark) + reference.absolute_offset[view.encoder]);
         self.target = self.set_position;
         let stops = self.in_grouping || reference.stops_at_marks[view.encoder];
         let rule = if stops { Rule::StopAfterMarks } else { Rule::MarksPassed };

@@ -1,5 +1,8 @@
 //! Paths: targets, circles, dimensions, offsets, exact stops, positioning axes.
 
+use opennck::plc::enable_all;
+use opennck::scenario::Session;
+
 use super::{automatic, duration, position, run, start};
 
 #[test]
@@ -211,6 +214,79 @@ fn the_path_feed_refers_to_the_axes_of_fgroup() {
     let back = duration(&format!("FGROUP(X)\nFGROUP()\n{line}"));
     assert!((both - back).abs() < 0.01, "{both} {back}");
     assert_eq!(position(&run("FGROUP(Y)\nG1 X10 F6000\nM30"))[0], 10.0);
+}
+
+/// SOFT: the path acceleration of X, Y and Z is √(2² + 2² + 2²) = 3.464 m/s²; at MD20600 = 10 m/s³ it rises within 0.3464 s, 174 cycles of
+/// 2 ms. With A, whose 5 rev/s² count as 1.8 m/s², the path has 3.904 m/s² and needs 196 cycles: 44 ms longer.
+#[test]
+fn soft_limits_the_jerk_of_the_axes_of_fgroup() {
+    let time = |nc: &str| {
+        let mut session = automatic(nc);
+        session.machine_data("20600[CHAN1]", 10.0).unwrap();
+        session.new_conf().unwrap();
+        session.run("1cycles").unwrap();
+        start(&mut session);
+        session.wait("X.setpoint > 0", "5s").unwrap();
+        let before = session.time().seconds();
+        session.wait("X.setpoint == 50", "5s").unwrap();
+        session.time().seconds() - before
+    };
+    let line = "SOFT G1 X50 F6000\nM30";
+    let (geometry, all) = (time(line), time(&format!("FGROUP(X,Y,Z,A)\n{line}")));
+    assert!((all - geometry - 0.044).abs() < 0.0021, "{geometry} {all}");
+    // BRISK: 50 mm at 100 mm/s and 2 m/s² take 0.5 s + 0.05 s. SOFT: 173 cycles more.
+    assert!((geometry - 0.55 - 0.346).abs() < 0.01, "{geometry}");
+}
+
+/// P-142: limits of the working area are programmed in the unit of the block, and SD43420 and SD43430 have that of the basic system.
+#[test]
+fn the_working_area_has_the_unit_of_its_block() {
+    for (unit, end) in [("G71", 10.0), ("G710", 10.0), ("G70", 254.0), ("G700", 254.0)] {
+        let read = "R1=$SA_WORKAREA_LIMIT_PLUS[X]\nR2=$SA_WORKAREA_LIMIT_MINUS[X]\nM30";
+        let mut session = run(&format!("{unit}\nG26 X10\nG25 X-10\n{read}"));
+        session.expect(&format!("abs(R1 - {end}) < 0.00001 && abs(R2 + {end}) < 0.00001")).unwrap();
+    }
+    // Speeds have no unit of length.
+    let mut session = Session::open("machine_data/mill").unwrap().with_program(enable_all().boxed());
+    session.wait("SP1.speed_controller_active", "1s").unwrap();
+    session.set("mode_group_1.mode_automatic", 1).unwrap();
+    let read = "R1=$SA_SPIND_MAX_VELO_G26[SP1]\nR2=$SA_SPIND_MIN_VELO_G25[SP1]\nM30";
+    session.nc(&format!("G700\nG26 S400\nG25 S10\n{read}"), 1).unwrap();
+    session.run("1cycles").unwrap();
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active || alarms() > 0", "5s").unwrap();
+    session.expect("alarms() == 0 && R1 == 400 && R2 == 10").unwrap();
+}
+
+/// MD30455 bit 2: with G90 a modulo axis takes the shortest way. From 350 degrees to 10: 20 degrees forward, else 340 back.
+#[test]
+fn g90_of_a_modulo_axis_can_take_the_shortest_way() {
+    for (mask, end) in [(0, 10.0), (4, 370.0)] {
+        for (word, end) in [("G0 A10", end), ("POS[A]=10", end), ("G0 A=AC(10)", 10.0), ("TRANS A10\nG0 A0", end)] {
+            let mut session = automatic(&format!("G0 A=AC(350)\nM0\n{word}\nM30"));
+            session.machine_data("30455[A]", mask).unwrap();
+            session.pulse_for("CHAN1.channel_reset", "5cycles").unwrap();
+            start(&mut session);
+            session.wait("CHAN1.m0_m1_active", "10s").unwrap();
+            start(&mut session);
+            session.wait("CHAN1.m2_m30_active || alarms() > 0", "60s").unwrap();
+            session.expect(&format!("alarms() == 0 && abs(A.setpoint - {end}) < 0.001")).unwrap();
+        }
+    }
+}
+
+/// Axis disable (1.3): the setpoint goes to 20 and the axis stays at 0. $VA_IM is the setpoint; with MD30455 bit 3 the actual value.
+#[test]
+fn the_actual_value_of_a_disabled_axis() {
+    for (mask, value) in [(0, 20.0), (8, 0.0)] {
+        let mut session = automatic("G0 X20\nR1=$VA_IM[X] R2=$AA_IM[X]\nM30");
+        session.machine_data("30455[X]", mask).unwrap();
+        session.pulse_for("CHAN1.channel_reset", "5cycles").unwrap();
+        session.set("X.axis_spindle_disable", 1).unwrap();
+        start(&mut session);
+        session.wait("CHAN1.m2_m30_active || alarms() > 0", "20s").unwrap();
+        session.expect(&format!("alarms() == 0 && abs(R1 - {value}) < 0.02 && R2 == 20")).unwrap();
+    }
 }
 
 /// G70 and G71 act where an offset is programmed: one inch stays 25.4 mm.
