@@ -1,5 +1,7 @@
 //! The conditions of signals: in every golden scenario they agree with the signals, and what they name is what the control waits for.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
