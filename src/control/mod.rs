@@ -45,7 +45,7 @@ use crate::nc_program::Program;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position, Time};
 use crate::variables::{
-    AlarmNumber, DatumValue, EventId, Events, FaultName, Place, RParameters, RaisedAlarm, Variables,
+    AlarmNumber, DatumValue, EventId, Events, FaultName, Place, RParameters, RaisedAlarm, ShownProgram, Variables,
 };
 
 /// A command to a control from outside, taken at the edge of a cycle.
@@ -317,6 +317,16 @@ pub trait Control: Send + Sync + Debug {
     /// number, for an axis without a gear and with a pitch of 1 mm.
     fn motor_speed(&self, _axis: AxisNumber, velocity: f64) -> f64 {
         velocity
+    }
+
+    /// What operator panels show of the program of a channel. The default is a control without programs.
+    fn shown_program(&self, _channel: ChannelNumber) -> ShownProgram<'_> {
+        ShownProgram::default()
+    }
+
+    /// The settable zero offset of an axis, in mm or degrees: frame 1 is G54. The default is none.
+    fn zero_offset(&self, _channel: ChannelNumber, _frame: u8, _axis: AxisNumber) -> f64 {
+        0.0
     }
 
     /// The value of an R parameter; `None` if it does not exist. The default is a control without them.

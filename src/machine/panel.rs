@@ -5,7 +5,7 @@ use crate::control::{ClearInfo, Datum as StoredDatum, Kind, Owner, Value};
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::nc::{ControlValues, Datum, MachineData, Refused};
-use crate::variables::{AlarmNumber, Place};
+use crate::variables::{AlarmNumber, Place, ShownProgram};
 
 fn owner(place: Place) -> Owner {
     match place {
@@ -104,6 +104,14 @@ impl ControlValues for Panel<'_> {
 
     fn is_rotary(&self, axis: AxisNumber) -> bool {
         self.0.control().is_rotary(axis)
+    }
+
+    fn shown_program(&self, channel: ChannelNumber) -> ShownProgram<'_> {
+        self.0.control().shown_program(channel)
+    }
+
+    fn zero_offset(&self, channel: ChannelNumber, frame: u8, axis: AxisNumber) -> f64 {
+        self.0.control().zero_offset(channel, frame, axis)
     }
 
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {

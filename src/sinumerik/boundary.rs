@@ -19,7 +19,7 @@ use crate::sinumerik::texts::TEXTS;
 use crate::sinumerik::user::state::UserReaction;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position};
-use crate::variables::{AlarmNumber, DatumValue, EventId, Events, Place, RParameters, Variables};
+use crate::variables::{AlarmNumber, DatumValue, EventId, Events, Place, RParameters, ShownProgram, Variables};
 
 /// The parts have the lengths of this control's interface, because the memory was created for it.
 const LENGTHS: &str = "the memory of a machine has the interface of its control";
@@ -228,6 +228,15 @@ impl Control for Nck {
 
     fn motor_speed(&self, axis: AxisNumber, velocity: f64) -> f64 {
         Self::motor_speed(self, axis, velocity)
+    }
+
+    fn shown_program(&self, channel: ChannelNumber) -> ShownProgram<'_> {
+        self.state.programs[channel].shown()
+    }
+
+    fn zero_offset(&self, channel: ChannelNumber, frame: u8, axis: AxisNumber) -> f64 {
+        // G group 8 begins with G500.
+        self.state.programs[channel].settable_offset(frame + 1, axis).user()
     }
 
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {

@@ -17,7 +17,7 @@ pub use alarms::{
     AlarmNumber, Alarms, Arrival, LongTexts, MessageCount, Parameter, RaisedAlarm, ShortText, short_text,
 };
 pub use axis_value::{AxisValue, six_decimals};
-pub use channel_values::{ChannelValues, ProgramName, program_name};
+pub use channel_values::{ChannelValues, ProgramName, ShownProgram, nc_file, program_name};
 pub use events::{BlockName, Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
 pub use happening::{DatumValue, FaultName, Happening};
 pub use named_value::{NamedValue, is_r_parameter, r_parameter};

@@ -8,7 +8,7 @@ use crate::image::{FromNck, Memory};
 use crate::s7::Command;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position, Time};
 use crate::variables::nc::{CATALOGUE, ControlValues, Datum, MachineData, Refused};
-use crate::variables::{AlarmNumber, Parameter, Place, RaisedAlarm};
+use crate::variables::{AlarmNumber, Parameter, Place, RaisedAlarm, ShownProgram};
 
 /// A client of a machine with X at 100 mm, Y at -0.5 mm, and three alarms: first 20000 at 1 s, then 10652 and 10653 at 3 s.
 fn client() -> Client {
@@ -37,13 +37,14 @@ fn client() -> Client {
     alarms.date(Time::from_millis(1000));
     alarms.publish([warning, trip, cam].into_iter());
     alarms.date(Time::from_millis(3000));
-    client.control = Some(Box::new(Knows { rotary: None }));
+    client.control = Some(Box::new(Knows { rotary: None, program: ShownProgram::default() }));
     client
 }
 
 /// At 4 s: overrides, R parameters, motors; 10652 is cancelled automatically, the others by RESET.
 struct Knows {
     rotary: Option<AxisNumber>,
+    program: ShownProgram<'static>,
 }
 
 impl ControlValues for Knows {
@@ -65,6 +66,15 @@ impl ControlValues for Knows {
 
     fn is_rotary(&self, axis: AxisNumber) -> bool {
         self.rotary == Some(axis)
+    }
+
+    fn shown_program(&self, channel: ChannelNumber) -> ShownProgram<'_> {
+        if channel == ChannelNumber::FIRST { self.program } else { ShownProgram::default() }
+    }
+
+    /// G54 has 12.5 in the second axis.
+    fn zero_offset(&self, _: ChannelNumber, frame: u8, axis: AxisNumber) -> f64 {
+        if (frame, axis.number()) == (1, 2) { 12.5 } else { 0.0 }
     }
 
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {
@@ -247,7 +257,7 @@ fn what_the_service_display_of_an_axis_shows_is_there() {
         assert_eq!(read(&mut client, &format!("82 41 00 {column} 00 02 71 01")), word, "{column}");
     }
     assert_eq!(read(&mut client, "82 41 00 09 00 02 74 01"), fixed("Y", 32));
-    client.control = Some(Box::new(Knows { rotary: Some(y) })); // -300 rev/min
+    client.control = Some(Box::new(Knows { rotary: Some(y), program: ShownProgram::default() })); // -300 rev/min
     assert_eq!(read(&mut client, "82 41 00 03 00 02 71 01"), double(&[-108_000.0]));
 }
 
@@ -261,6 +271,40 @@ fn there_are_no_spindles_and_no_tools() {
     assert_eq!(read(&mut client, "82 41 00 17 00 01 7F 01"), "FF 09 00 02 00 00"); // T0
     assert_eq!(read(&mut client, "82 41 00 79 00 01 7F 01"), double(&[0.0])); // parts
     assert_eq!(read(&mut client, "82 81 00 03 00 01 26 01"), "0A 00 00 00");
+}
+
+/// A subprogram runs that the selected program has called; names are those of files of the NC.
+#[test]
+fn the_program_that_runs_is_shown() {
+    let mut client = client();
+    let program = ShownProgram {
+        selected: Some("_N_MPF_DIR/PART.MPF"),
+        active: Some("_N_SPF_DIR/HOLE.SPF"),
+        line: 7,
+        block: "N70 G1 X10",
+        message: "drilling",
+        velocity: 1500.0,
+    };
+    client.control = Some(Box::new(Knows { rotary: None, program }));
+    for (item, text, length) in [
+        ("82 41 00 01 00 01 7D 01", "drilling", 128),
+        ("82 41 00 03 00 01 7D 01", "_N_HOLE_SPF", 32),
+        ("82 41 00 04 00 01 7D 01", "", 66),
+        ("82 41 00 04 00 02 7D 01", "N70 G1 X10", 66),
+        ("82 41 00 10 00 01 7D 01", "/_N_SPF_DIR/_N_HOLE_SPF", 160),
+        ("82 41 00 23 00 01 7D 01", "/_N_MPF_DIR/_N_PART_MPF", 160),
+        ("82 41 00 0C 00 01 7A 01", "/_N_MPF_DIR/_N_PART_MPF", 160),
+        ("82 41 00 23 00 01 7F 01", "0", 32),
+    ] {
+        assert_eq!(read(&mut client, item), fixed(text, length), "{item}");
+    }
+    assert_eq!(read(&mut client, "82 41 00 09 00 01 7D 01"), "FF 09 00 04 07 00 00 00");
+    assert_eq!(read(&mut client, "82 41 00 01 00 01 7F 01"), double(&[1500.0]));
+    // Three axes: rows 1 to 3 are G500, rows 4 to 6 G54.
+    for (row, offset) in [(1, 0.0), (2, 0.0), (4, 0.0), (5, 12.5), (6, 0.0)] {
+        assert_eq!(read(&mut client, &format!("82 41 00 01 00 {row:02X} 12 01")), double(&[offset]), "{row}");
+    }
+    assert_eq!(read(&mut client, "82 41 00 01 00 00 12 01"), "05 00 00 00");
 }
 
 /// -30 rev/min is C1F00000 as a float, big-endian.
@@ -394,8 +438,8 @@ fn names_are_texts_of_fixed_length_filled_with_zeros() {
     assert_eq!(read(&mut client, "82 01 46 6E 00 01 1A 01"), fixed("SIMULATED", 32)); // MD18030
     // MD18040, rows 1 to 4.
     let version = concat!("OpenNCK ", env!("CARGO_PKG_VERSION"));
-    assert_eq!(read(&mut client, "82 01 46 78 00 01 1A 01"), fixed(version, 32));
-    assert_eq!(read(&mut client, "82 01 46 78 00 04 1A 01"), fixed("", 32));
+    assert_eq!(read(&mut client, "82 01 46 78 00 01 1A 01"), fixed(version, 20));
+    assert_eq!(read(&mut client, "82 01 46 78 00 04 1A 01"), fixed("", 20));
     assert_eq!(read(&mut client, "82 01 46 78 00 05 1A 01"), "05 00 00 00");
 }
 

@@ -4,7 +4,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::program::state::{ChannelProgram, Phase, Preparation};
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
-use crate::variables::{ChannelValues, program_name};
+use crate::variables::{ChannelValues, ShownProgram, program_name};
 
 impl ChannelProgram {
     /// The block of an alarm when everything before it has been executed. Between two blocks, and in a block whose display is off (DISPLOF), the values stay.
@@ -33,6 +33,30 @@ impl ChannelProgram {
         if let Some(origin) = runs.map(|block| &block.origin).filter(|origin| !origin.is_display_off) {
             values.block = block_number(&origin.name, origin.line);
             values.program = program_name(&origin.program);
+        }
+    }
+
+    /// What operator panels show of it: the block that runs, unless its display is off.
+    pub(in crate::sinumerik) fn shown(&self) -> ShownProgram<'_> {
+        let selected = self.selected.as_deref();
+        let message = self.message.as_deref().unwrap_or_default();
+        let Some(run) = &self.run else {
+            return ShownProgram { selected, active: selected, message, ..ShownProgram::default() };
+        };
+        let main = if run.is_mda { self.mda.as_deref() } else { selected };
+        let shown = ShownProgram {
+            selected,
+            active: main,
+            message,
+            velocity: run.path.velocity() / Position::PER_USER_UNIT * 60.0,
+            ..ShownProgram::default()
+        };
+        let runs = run.queue.front().filter(|_| run.phase != Phase::Between).map(|block| &block.origin);
+        match runs.filter(|origin| !origin.is_display_off) {
+            Some(origin) => {
+                ShownProgram { active: Some(&origin.program), line: origin.line, block: &origin.text, ..shown }
+            }
+            None => shown,
         }
     }
 }

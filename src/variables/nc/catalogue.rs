@@ -5,16 +5,18 @@
 //! connector's export of Siemens' NC-Var selector, T an NCK driver in TypeScript and C a collector in C, both of which read controls, L the
 //! public lists of the columns of a module, which agree with the other sources wherever both name a column.
 //!
-//! Choices: texts of machine data and of alarm parameters have 32 bytes. `sysTimeUdword` counts seconds since 1970. MD18040 has this
+//! Choices: texts of machine data and of alarm parameters have 32 bytes; MD18040 has 20, as on a real 828D. Programs have their names as files
+//! of the NC (`_N_PART_MPF`). T and D are those that the program has output, the commanded speed of a spindle is its S function. `sysTimeUdword` counts seconds since 1970. MD18040 has this
 //! simulator and its version in the first of its four rows. `N/Y` has no `nckType` and `nckVersion`: their addresses (columns 001F and
 //! 0020) are known, but no source lists the values of the controls.
 
 use super::alarms::{self, Order};
 use super::drives::motor_speed;
 use super::values::{
-    asked, axis, axis_name, axis_number, axis_signal, channel, channel_exists, channel_name, channel_status,
-    count_axes, empty, feedrate, flag, geometry_axis, machine_function, measuring_system, mode, number, of_axis,
-    of_channel, only, program_status, r_parameter, seconds, version, zero,
+    asked, axis, axis_name, axis_number, axis_signal, block, channel, channel_exists, channel_name, channel_status,
+    count_axes, count_spindles, d_number, empty, feedrate, file, flag, geometry_axis, machine_function,
+    measuring_system, mode, number, of_axis, of_channel, of_program, of_spindle, only, program, program_status,
+    r_parameter, seconds, turn_state, version, zero, zero_offset,
 };
 use super::variable::module;
 use super::{Kind, NckArea, Shown, Variable};
@@ -62,12 +64,12 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/MachineAxisExt/encChoice",         Channel,   SEMA,   0x002A, Word,      "L",       |v, c, l| axis_signal(v, c, l, measuring_system)),
     row!("C/MachineAxisExt/driveActParamSet",  Channel,   SEMA,   0x002E, Word,      "L",       |v, c, l| axis_signal(v, c, l, |from| from.active_drive_data_set() + 1)),
     row!("C/MachineAxisExt/vaSyncDiff",        Channel,   SEMA,   0x00C1, Length,    "L",       |v, c, l| axis(v, c, l, |a| a.synchronism_difference.user())),
-    // Spindles: none exist, so these variables have no rows.
-    row!("C/Spindle/actSpeed",                 Channel,   SSP,    0x0002, Double,    "F C T L", |_, _, _| None),
-    row!("C/Spindle/cmdSpeed",                 Channel,   SSP,    0x0003, Double,    "F C T L", |_, _, _| None),
-    row!("C/Spindle/speedOvr",                 Channel,   SSP,    0x0004, Double,    "F C T L", |_, _, _| None),
-    row!("C/Spindle/turnState",                Channel,   SSP,    0x0009, Word,      "F C T L", |_, _, _| None),
-    row!("C/Spindle/spindleType",              Channel,   SSP,    0x000D, Word,      "F C T L", |_, _, _| None),
+    // Spindles; the row is the number of the spindle (MD35000).
+    row!("C/Spindle/actSpeed",                 Channel,   SSP,    0x0002, Double,    "F C T L", |v, c, l| of_spindle(v, c, l, |v, axis| v.variables.axes[axis].velocity.abs())),
+    row!("C/Spindle/cmdSpeed",                 Channel,   SSP,    0x0003, Double,    "F C T L", |v, c, l| of_spindle(v, c, l, |v, axis| f64::from(v.memory.from_nck().axes[axis].spindle_s_function()))),
+    row!("C/Spindle/speedOvr",                 Channel,   SSP,    0x0004, Double,    "F C T L", |v, c, l| of_spindle(v, c, l, |v, axis| v.control.map_or(100.0, |control| control.axis_override(axis)))),
+    row!("C/Spindle/turnState",                Channel,   SSP,    0x0009, Word,      "F C T L", |v, c, l| of_spindle(v, c, l, turn_state)),
+    row!("C/Spindle/spindleType",              Channel,   SSP,    0x000D, Word,      "F C T L", |v, c, l| of_spindle(v, c, l, |_, _| 0.0)),
     // Drives; the unit is the drive number.
     row!("V/Drive/r0021 actual speed",         FeedDrive, DRIVE,  0x0015, DriveReal, "C",       |v, d, l| motor_speed(v, d, l)),
     row!("V/Drive/MD1707 actual speed",        FeedDrive, M,      0x06AB, DriveReal, "F",       |v, d, l| motor_speed(v, d, l)),
@@ -76,25 +78,26 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/$MC_CHAN_NAME",                    Channel,   M,      0x4E20, Text(32),  "C D",     |v, c, l| only(l).and_then(|()| channel_name(v, c))),
     row!("N/$MN_AXCONF_MACHAX_NAME_TAB",       Nck,       M,      0x2710, Text(32),  "C D",     |v, _, l| axis_name(v, l)),
     row!("N/$MN_HW_SERIAL_NUMBER",             Nck,       M,      0x466E, Text(32),  "C",       |v, _, l| only(l).map(|()| Shown::Text(v.serial_number.into()))),
-    row!("N/$MN_VERSION_INFO",                 Nck,       M,      0x4678, Text(32),  "C",       |_, _, l| version(l)),
+    row!("N/$MN_VERSION_INFO",                 Nck,       M,      0x4678, Text(20),  "C",       |_, _, l| version(l)),
     // The configuration.
     row!("C/Y/numMachAxes",                    Channel,   Y,      0x0003, Word,      "T",       |v, c, l| only(l).and_then(|()| count_axes(v, c))),
-    row!("C/Y/numSpindles",                    Channel,   Y,      0x0004, Word,      "T",       |v, c, l| zero(v, c, l)),
+    row!("C/Y/numSpindles",                    Channel,   Y,      0x0004, Word,      "T",       |v, c, l| count_spindles(v, c, l)),
     row!("N/Y/basicLengthUnit",                Nck,       Y,      0x0002, Word,      "T",       |v, _, l| only(l).map(|()| flag(v.memory.from_nck().nck.inch_measuring_system_active()))),
     row!("N/Y/maxnumAlarms",                   Nck,       Y,      0x0013, Word,      "T",       |_, _, l| only(l).map(|()| number(Alarms::CAPACITY))),
     // The mode group.
     row!("B/State/opMode",                     ModeGroup, S,      0x0003, Word,      "F T C",   |v, b, l| only(l).and_then(|()| mode(v, b))),
     // The channel.
-    row!("C/State/actFeedRateIpo",             Channel,   S,      0x0001, Double,    "C",       |v, c, l| zero(v, c, l)),
+    row!("C/State/actFeedRateIpo",             Channel,   S,      0x0001, Double,    "C",       |v, c, l| of_program(v, c, l, |program| program.velocity)),
     row!("C/State/cmdFeedRateIpo",             Channel,   S,      0x0002, Double,    "C",       |v, c, l| zero(v, c, l)),
     row!("C/State/feedRateIpoOvr",             Channel,   S,      0x0003, Double,    "F T C",   |v, c, l| of_channel(v, c, l, |control, channel| control.channel_overrides(channel)[0])),
     row!("C/State/rapFeedRateOvr",             Channel,   S,      0x0004, Double,    "F T C",   |v, c, l| of_channel(v, c, l, |control, channel| control.channel_overrides(channel)[1])),
     row!("C/State/chanStatus",                 Channel,   S,      0x000B, Word,      "T C",     |v, c, l| channel(v, c, l, channel_status)),
     row!("C/State/machFunc",                   Channel,   S,      0x000C, Word,      "C",       |v, c, l| channel(v, c, l, |_| 0.0).and_then(|_| machine_function(v))),
     row!("C/State/progStatus",                 Channel,   S,      0x000D, Word,      "T C",     |v, c, l| channel(v, c, l, program_status)),
-    row!("C/State/actTNumber",                 Channel,   S,      0x0017, Word,      "T C F",   |v, c, l| zero(v, c, l)),
-    row!("C/State/actDNumber",                 Channel,   S,      0x0018, Word,      "T C F",   |v, c, l| zero(v, c, l)),
+    row!("C/State/actTNumber",                 Channel,   S,      0x0017, Word,      "T C F",   |v, c, l| channel(v, c, l, |from| from.t_function_1().into())),
+    row!("C/State/actDNumber",                 Channel,   S,      0x0018, Word,      "T C F",   |v, c, l| channel(v, c, l, |from| from.d_function_1().into())),
     row!("C/State/actToolIdent",               Channel,   S,      0x0021, Text(32),  "T C F",   |v, c, l| empty(v, c, l)),
+    row!("C/State/D number shown",             Channel,   S,      0x0023, Text(32),  "C",       |v, c, l| d_number(v, c, l)),
     row!("C/State/reqParts",                   Channel,   S,      0x0077, Double,    "T C",     |v, c, l| zero(v, c, l)),
     row!("C/State/totalParts",                 Channel,   S,      0x0078, Double,    "T C",     |v, c, l| zero(v, c, l)),
     row!("C/State/actParts",                   Channel,   S,      0x0079, Double,    "T C",     |v, c, l| zero(v, c, l)),
@@ -106,14 +109,16 @@ pub const CATALOGUE: &[Variable] = &[
     // R parameters; R0 is row 1. Only these rows can be written.
     row!("C/Parameter/rpa",                    Channel,   RP,     0x0001, Double,    "D C",     |v, c, l| r_parameter(v, c, l).ok().map(|(_, _, value)| Shown::Number(value))),
     // The program.
-    row!("C/ProgramInfo/msg",                  Channel,   SPARP,  0x0001, Text(128), "T F",     |v, c, l| empty(v, c, l)),
-    row!("C/ProgramInfo/progName",             Channel,   SPARP,  0x0003, Text(32),  "T F",     |v, c, l| empty(v, c, l)),
-    row!("C/ProgramInfo/block",                Channel,   SPARP,  0x0004, Text(66),  "T F",     |v, c, l| if l <= 3 { empty(v, c, 1) } else { None }),
-    row!("C/ProgramInfo/actLineNumber",        Channel,   SPARP,  0x0009, Long,      "T F",     |v, c, l| zero(v, c, l)),
+    row!("C/ProgramInfo/msg",                  Channel,   SPARP,  0x0001, Text(128), "T F",     |v, c, l| program(v, c, l, |program| program.message.into())),
+    row!("C/ProgramInfo/progName",             Channel,   SPARP,  0x0003, Text(32),  "T F",     |v, c, l| program(v, c, l, |program| file(program.active, false))),
+    row!("C/ProgramInfo/block",                Channel,   SPARP,  0x0004, Text(66),  "T F",     |v, c, l| block(v, c, l)),
+    row!("C/ProgramInfo/actLineNumber",        Channel,   SPARP,  0x0009, Long,      "T F",     |v, c, l| of_program(v, c, l, |program| program.line.into())),
     row!("C/ProgramInfo/workPNameLong",        Channel,   SPARP,  0x000C, Text(128), "T F",     |v, c, l| empty(v, c, l)),
-    row!("C/ProgramInfo/workPandProgName",     Channel,   SPARP,  0x0010, Text(160), "T F",     |v, c, l| empty(v, c, l)),
-    row!("C/ProgramInfo/selectedWorkPProg",    Channel,   SPARP,  0x0023, Text(160), "T F",     |v, c, l| empty(v, c, l)),
+    row!("C/ProgramInfo/workPandProgName",     Channel,   SPARP,  0x0010, Text(160), "T F",     |v, c, l| program(v, c, l, |program| file(program.active, true))),
+    row!("C/ProgramInfo/selectedWorkPProg",    Channel,   SPARP,  0x0023, Text(160), "T F",     |v, c, l| program(v, c, l, |program| file(program.selected, true))),
     row!("C/ProgramPointer/progName",          Channel,   SPARPP, 0x0005, Text(32),  "T C",     |v, c, l| empty(v, c, l)),
+    row!("C/ProgramPointer/selected program",  Channel,   SPARPP, 0x000C, Text(160), "C",       |v, c, l| program(v, c, l, |program| file(program.selected, true))),
+    row!("C/UserFrame/linShift",               Channel,   FU,     0x0001, Double,    "C",       |v, c, l| zero_offset(v, c, l)),
     row!("C/ProgramModification/trialRun",     Channel,   SINF,   0x0009, Word,      "T",       |v, c, l| asked(v, c, l, ChannelToNck::activate_dry_run_feedrate)),
     row!("C/ProgramModification/optStop",      Channel,   SINF,   0x000A, Word,      "T",       |v, c, l| asked(v, c, l, ChannelToNck::activate_m01)),
     row!("C/ProgramModification/singleBlock",  Channel,   SINF,   0x000C, Word,      "T",       |v, c, l| asked(v, c, l, ChannelToNck::activate_single_block)),

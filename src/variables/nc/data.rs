@@ -1,7 +1,7 @@
 //! Data for the catalogue besides memory and variables, as small traits: machine data, and values of the control.
 
 use crate::units::{AxisNumber, ChannelNumber, Time};
-use crate::variables::{AlarmNumber, Place};
+use crate::variables::{AlarmNumber, Place, ShownProgram};
 
 /// Why a variable is not read or written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,16 @@ pub trait ControlValues {
 
     /// Whether positions of the axis are in degrees.
     fn is_rotary(&self, axis: AxisNumber) -> bool;
+
+    /// What is shown of the program of a channel. The default is a control without programs.
+    fn shown_program(&self, _channel: ChannelNumber) -> ShownProgram<'_> {
+        ShownProgram::default()
+    }
+
+    /// The settable zero offset of an axis, in mm or degrees: frame 1 is G54. The default is none.
+    fn zero_offset(&self, _channel: ChannelNumber, _frame: u8, _axis: AxisNumber) -> f64 {
+        0.0
+    }
 
     /// An R parameter of a channel, by its number.
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64>;

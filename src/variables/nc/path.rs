@@ -54,6 +54,7 @@ const fn folder(of: u8) -> Option<&'static str> {
         module::SGA | module::SEGA => "GeometricAxis",
         module::SSP => "Spindle",
         module::Y => "Configuration",
+        module::FU => "UserFrame",
         module::S => "State",
         module::DIAGN => "ChannelDiagnose",
         module::RP => "Parameter",

@@ -1,10 +1,12 @@
-//! The values of the catalogue. A control without a running program shows no tool (T0), no program name and no program state; so does this
-//! one. A geometry axis is the machine axis with the same number.
+//! The values of the catalogue. A control without a program shows no program name and no block, and T0 before a program has written T; so
+//! does this one. A geometry axis is the machine axis with the same number.
+
+use std::borrow::Cow;
 
 use super::{ControlValues, Datum, Kind, Refused, Shown, Variable, View};
 use crate::image::{AxisFromNck, Block, ChannelFromNck, ChannelToNck};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
-use crate::variables::{AxisValues, Place};
+use crate::variables::{AxisValues, Place, ShownProgram, nc_file};
 
 pub(super) fn number(count: usize) -> Shown<'static> {
     Shown::Number(f64::from(u32::try_from(count).unwrap_or(u32::MAX)))
@@ -185,6 +187,104 @@ pub(super) fn of_channel<'a>(
 ) -> Option<Shown<'a>> {
     only(line)?;
     Some(Shown::Number(get(view.control?, channel_number(view, unit)?)))
+}
+
+/// A text of the program of a channel.
+pub(super) fn program<'a>(
+    view: &View<'a>,
+    unit: u8,
+    line: u16,
+    get: impl FnOnce(ShownProgram<'a>) -> Cow<'a, str>,
+) -> Option<Shown<'a>> {
+    only(line)?;
+    let channel = channel_number(view, unit)?;
+    let shown = view.control.map(|control| control.shown_program(channel)).unwrap_or_default();
+    Some(Shown::Text(get(shown)))
+}
+
+/// Three rows: the last block, the one that runs, and the next one. Only the one that runs is known.
+pub(super) fn block<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
+    match line {
+        2 => program(view, unit, 1, |program| program.block.into()),
+        1 | 3 => empty(view, unit, 1),
+        _ => None,
+    }
+}
+
+/// The D number as a text.
+pub(super) fn d_number<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
+    only(line)?;
+    let number = view.memory.from_nck().channels[channel_number(view, unit)?].d_function_1();
+    Some(Shown::Text(number.to_string().into()))
+}
+
+/// A number of the program of a channel.
+pub(super) fn of_program<'a>(
+    view: &View<'a>,
+    unit: u8,
+    line: u16,
+    get: fn(&ShownProgram<'_>) -> f64,
+) -> Option<Shown<'a>> {
+    only(line)?;
+    let channel = channel_number(view, unit)?;
+    let shown = view.control.map(|control| control.shown_program(channel)).unwrap_or_default();
+    Some(Shown::Number(get(&shown)))
+}
+
+/// A program as a file of the NC, or its name alone.
+pub(super) fn file(path: Option<&str>, is_whole: bool) -> Cow<'static, str> {
+    let file = path.map(nc_file).unwrap_or_default();
+    let name = if is_whole { file.as_str() } else { file.rsplit('/').next().unwrap_or_default() };
+    name.to_owned().into()
+}
+
+/// The axis of a spindle, by its number (MD35000).
+fn spindle(view: &View<'_>, number: u16) -> Option<AxisNumber> {
+    let data = view.machine_data?;
+    let mut axes = view.names.axes.iter().filter(|(_, name)| name.is_some()).map(|(axis, _)| axis);
+    axes.find(|axis| match data.datum(Place::Axis(*axis), 35000, 0) {
+        Some(Datum::Byte(found)) => number > 0 && u16::from(found) == number,
+        Some(Datum::Whole(found)) => number > 0 && found == i32::from(number),
+        _ => false,
+    })
+}
+
+/// The number of spindles.
+pub(super) fn count_spindles<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
+    only(line)?;
+    channel_exists(view, unit)?;
+    Some(number((1..=31).filter(|number| spindle(view, *number).is_some()).count()))
+}
+
+/// A value of a spindle; the row is its number.
+pub(super) fn of_spindle<'a>(
+    view: &View<'a>,
+    unit: u8,
+    line: u16,
+    get: fn(&View<'_>, AxisNumber) -> f64,
+) -> Option<Shown<'a>> {
+    channel_exists(view, unit)?;
+    Some(Shown::Number(get(view, spindle(view, line)?)))
+}
+
+/// 0 clockwise, 1 counter-clockwise, 2 at rest.
+pub(super) fn turn_state(view: &View<'_>, axis: AxisNumber) -> f64 {
+    let from = &view.memory.from_nck().axes[axis];
+    match (from.axis_stationary(), from.actual_direction_of_rotation_clockwise()) {
+        (true, _) => 2.0,
+        (false, true) => 0.0,
+        (false, false) => 1.0,
+    }
+}
+
+/// A settable zero offset: the rows of the axes of G500, then those of G54, and so on. In G500 all are 0.
+pub(super) fn zero_offset<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
+    let channel = channel_number(view, unit)?;
+    let axes: Vec<_> = view.names.axes.iter().filter(|(_, name)| name.is_some()).map(|(axis, _)| axis).collect();
+    let row = usize::from(line.checked_sub(1)?);
+    let frame = u8::try_from(row / axes.len().max(1)).ok().filter(|frame| *frame <= 4)?;
+    let offset = |control: &dyn ControlValues| control.zero_offset(channel, frame, axes[row % axes.len()]);
+    Some(Shown::Number(if frame == 0 { 0.0 } else { view.control.map_or(0.0, offset) }))
 }
 
 /// The clock of the CPU in seconds since 1970.

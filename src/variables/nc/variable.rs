@@ -8,6 +8,8 @@ use super::{ClockTime, View};
 pub mod module {
     /// System data.
     pub const Y: u8 = 0x10;
+    /// Settable zero offsets.
+    pub const FU: u8 = 0x12;
     /// R parameters.
     pub const RP: u8 = 0x15;
     /// Machine data; for drives: those of the powerline.
