@@ -480,7 +480,7 @@ fn machine_data_are_read_by_number_and_index() {
     let mut client = client();
     assert_eq!(read(&mut client, "82 62 85 2A 00 01 1A 01"), "0A 00 00 00");
     client.machine_data = Some(Box::new(Data));
-    client.control = Some(Box::new(Knows { rotary: AxisNumber::new(2) }));
+    client.control = Some(Box::new(Knows { rotary: AxisNumber::new(2), program: ShownProgram::default() }));
     assert_eq!(read(&mut client, "82 62 85 2A 00 01 1A 01"), double(&[-0.941]));
     assert_eq!(read(&mut client, "82 61 90 EC 00 01 1A 01"), "FF 09 00 01 0B");
     assert_eq!(read(&mut client, "82 61 76 20 00 01 1A 02"), "FF 09 00 02 01 02");
@@ -501,7 +501,7 @@ fn machine_data_are_read_by_number_and_index() {
 fn machine_data_are_written_and_what_the_control_shows_is_not() {
     let mut client = client();
     client.machine_data = Some(Box::new(Data));
-    client.control = Some(Box::new(Knows { rotary: AxisNumber::new(2) }));
+    client.control = Some(Box::new(Knows { rotary: AxisNumber::new(2), program: ShownProgram::default() }));
     let mut write = |item: &str, value: &str| client.job(&format!("05 01 12 08 {item}"), value);
     // 0.5 is 3FE0000000000000.
     let answer = write("82 62 85 2A 00 01 1A 01", "00 09 00 08 00 00 00 00 00 00 E0 3F");

@@ -15,8 +15,8 @@ use super::drives::motor_speed;
 use super::values::{
     asked, axis, axis_name, axis_number, axis_signal, block, channel, channel_exists, channel_name, channel_status,
     count_axes, count_spindles, d_number, empty, feedrate, file, flag, geometry_axis, machine_function,
-    measuring_system, mode, number, of_axis, of_channel, of_program, of_spindle, only, program, program_status,
-    r_parameter, seconds, turn_state, version, zero, zero_offset,
+    measuring_system, mode, number, of_axis, of_channel, of_output, of_program, of_spindle, only, program,
+    program_status, r_parameter, seconds, turn_state, version, zero, zero_offset,
 };
 use super::variable::module;
 use super::{Kind, NckArea, Shown, Variable};
@@ -94,8 +94,8 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/State/chanStatus",                 Channel,   S,      0x000B, Word,      "T C",     |v, c, l| channel(v, c, l, channel_status)),
     row!("C/State/machFunc",                   Channel,   S,      0x000C, Word,      "C",       |v, c, l| channel(v, c, l, |_| 0.0).and_then(|_| machine_function(v))),
     row!("C/State/progStatus",                 Channel,   S,      0x000D, Word,      "T C",     |v, c, l| channel(v, c, l, program_status)),
-    row!("C/State/actTNumber",                 Channel,   S,      0x0017, Word,      "T C F",   |v, c, l| channel(v, c, l, |from| from.t_function_1().into())),
-    row!("C/State/actDNumber",                 Channel,   S,      0x0018, Word,      "T C F",   |v, c, l| channel(v, c, l, |from| from.d_function_1().into())),
+    row!("C/State/actTNumber",                 Channel,   S,      0x0017, Word,      "T C F",   |v, c, l| of_output(v, c, l, |from| from.t_function_1().into())),
+    row!("C/State/actDNumber",                 Channel,   S,      0x0018, Word,      "T C F",   |v, c, l| of_output(v, c, l, |from| from.d_function_1().into())),
     row!("C/State/actToolIdent",               Channel,   S,      0x0021, Text(32),  "T C F",   |v, c, l| empty(v, c, l)),
     row!("C/State/D number shown",             Channel,   S,      0x0023, Text(32),  "C",       |v, c, l| d_number(v, c, l)),
     row!("C/State/reqParts",                   Channel,   S,      0x0077, Double,    "T C",     |v, c, l| zero(v, c, l)),

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::{ControlValues, Datum, Kind, Refused, Shown, Variable, View};
-use crate::image::{AxisFromNck, Block, ChannelFromNck, ChannelToNck};
+use crate::image::{AxisFromNck, Block, ChannelAuxiliary, ChannelFromNck, ChannelToNck};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{AxisValues, Place, ShownProgram, nc_file};
 
@@ -85,6 +85,17 @@ pub(super) fn count_axes<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
 pub(super) fn channel<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&ChannelFromNck) -> f64) -> Option<Shown<'a>> {
     only(line)?;
     Some(Shown::Number(get(&view.memory.from_nck().channels[channel_number(view, unit)?])))
+}
+
+/// An auxiliary function that the program has output.
+pub(super) fn of_output<'a>(
+    view: &View<'a>,
+    unit: u8,
+    line: u16,
+    get: fn(&ChannelAuxiliary) -> f64,
+) -> Option<Shown<'a>> {
+    only(line)?;
+    Some(Shown::Number(get(view.memory.from_nck().auxiliary(channel_number(view, unit)?))))
 }
 
 /// A function requested by the PLC.
@@ -214,7 +225,7 @@ pub(super) fn block<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a
 /// The D number as a text.
 pub(super) fn d_number<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
     only(line)?;
-    let number = view.memory.from_nck().channels[channel_number(view, unit)?].d_function_1();
+    let number = view.memory.from_nck().auxiliary(channel_number(view, unit)?).d_function_1();
     Some(Shown::Text(number.to_string().into()))
 }
 
