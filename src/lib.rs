@@ -72,6 +72,7 @@
 //! | [`machine`] | one step of the complete machine, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `nc_program`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `monitor`, `nc_program`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `plc`, `scenario`, `source`, `trace`, `units` |
+//! | [`campaign`] | many cases of a scenario: what varies, what must hold, failures in groups, the smallest scenario of each | `image`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `image`, `live`, `machine`, `source`, `units`, `variables` |
 //! | [`web`] | the live page: a machine in real time in a browser (feature `web`) | `control`, `image`, `live`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
@@ -153,6 +154,7 @@
 // A build without the module has no documentation of it to link to.
 #![cfg_attr(not(feature = "opcua"), doc = "\n[`opcua`]: #modules-and-their-imports")]
 
+pub mod campaign;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod control;

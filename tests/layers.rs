@@ -59,6 +59,7 @@ const MODULES: &[(&str, &[&str])] = &[
         ],
     ),
     ("golden", &["control", "controls", "image", "plc", "scenario", "source", "trace", "units"]),
+    ("campaign", &["image", "plc", "scenario", "source", "trace", "units", "variables"]),
     ("live", &["image", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),
     ("s7", &["image", "live", "machine", "source", "units", "variables"]),
     ("web", &["control", "image", "live", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),

@@ -12,6 +12,7 @@
 //! written.
 
 mod alarms;
+mod campaign;
 mod completions;
 mod coverage;
 mod diff;
@@ -84,6 +85,14 @@ enum Command {
     },
     /// Runs every scenario below the paths and compares each trace with its golden file.
     Test(test::Arguments),
+    /// Runs many cases of one scenario, and reports the failures in groups, each with the smallest scenario that shows it.
+    ///
+    /// The file of the campaign names the base scenario, what varies (machine data, values of the plant, PLC programs, faults, inputs), and
+    /// what must hold. The same file gives the same cases and the same results, on any number of processors. A run that was interrupted
+    /// keeps what is done.
+    ///
+    /// Exit codes: 0 every case held; 1 a case failed, or no case reached what must be reached; 2 unusable input.
+    Campaign(Box<campaign::Arguments>),
     /// Runs a machine in real time and serves it to S7 clients: operator panels, data collectors, test tools.
     ///
     /// Clients read and write DB10, DB11, DB21..., DB31..., the user data blocks, flags, inputs and outputs of the PLC, and read NC
@@ -319,6 +328,7 @@ fn run_command(programs: &Programs) -> ExitCode {
     let code = match arguments.command {
         None => example::run(arguments.svg, programs, &mut output),
         Some(Command::Run { scenarios, options }) => run::run(&scenarios, &options, programs, &mut output),
+        Some(Command::Campaign(arguments)) => campaign::campaign(&arguments, programs, &mut output),
         Some(Command::Test(arguments)) => test::test(&arguments, programs, &mut output),
         #[cfg(feature = "s7")]
         Some(Command::Serve(arguments)) => serve::serve(&arguments, programs, &mut output),

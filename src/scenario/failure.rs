@@ -32,6 +32,17 @@ pub struct Missed {
     pub alarms: Vec<String>,
 }
 
+/// How far a run has come.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Progress {
+    /// The PLC program has not begun.
+    New,
+    /// Its steps are executed.
+    Running,
+    /// The steps are done, or one has failed.
+    Over(Option<Failure>),
+}
+
 impl Failure {
     /// The same failure with this place, unless it already has one.
     #[must_use]

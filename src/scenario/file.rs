@@ -9,6 +9,7 @@ use super::duration::Duration;
 use super::fields::{Named, duration, in_the_case, named, texts};
 use super::matrix::{FIXED, HEAD, Variant, heads};
 use super::rules;
+use super::timed;
 use super::written::WrittenSteps;
 use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
@@ -54,6 +55,8 @@ pub struct Scenario {
     /// How the trace is compared with the golden trace.
     pub compare: Compare,
     pub(super) rules: Vec<rules::Written>,
+    /// What happens at a time, whatever the steps do.
+    pub(super) at: Vec<Table>,
     /// Data that are merged into `plant.toml`.
     pub plant: Option<Table>,
     /// Machine data that are stored before the first power on.
@@ -167,6 +170,23 @@ impl Scenario {
         Ok(cases)
     }
 
+    /// A scenario with one case from its tables, for callers that change them. `path` is as for [`Scenario::parse`].
+    ///
+    /// # Errors
+    /// As [`Scenario::read`].
+    pub fn of_table(mut table: Table, path: &Path) -> Result<Self, Problem> {
+        let steps = WrittenSteps::of(table.take("step"), &path.display().to_string())?;
+        let whole = Place::file(&path.display().to_string());
+        let mut heads = heads(table, path)?;
+        match (heads.pop(), heads.len()) {
+            (Some((variant, head)), 0) => Self::from_head(head, path, &whole, variant, steps),
+            (_, others) => {
+                let what = format!("expected a scenario with one case, found a matrix of {}", others + 1);
+                Err(whole.problem(what, "write the values of one case into its head"))
+            }
+        }
+    }
+
     fn from_head(
         mut table: Table,
         path: &Path,
@@ -212,6 +232,7 @@ impl Scenario {
             never: texts(table.take("never"), "expressions")?,
             always: texts(table.take("always"), "expressions")?,
             rules: rules::written(table.take("rule"))?,
+            at: timed::written(table.take("at"))?,
             compare: table.take("compare").map_or(Ok(Compare::Exact), compare)?,
             plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
             machine_data: table.take("machine_data").map_or(Ok(Vec::new()), machine_data)?,

@@ -25,7 +25,7 @@ pub(super) const HEAD: [&str; 13] = [
 ];
 
 /// The keys of the head that belong to the scenario as a whole.
-pub(super) const FIXED: [&str; 7] = ["title", "covers", "plant", "machine_data", "matrix", "rule", "step"];
+pub(super) const FIXED: [&str; 8] = ["title", "covers", "plant", "machine_data", "matrix", "rule", "at", "step"];
 
 /// The maximum number of cases.
 const CASES: usize = 10_000;

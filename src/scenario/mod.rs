@@ -13,6 +13,7 @@ mod faults;
 mod fields;
 mod file;
 mod generators;
+mod going;
 mod include;
 mod matrix;
 mod naming;
@@ -29,6 +30,7 @@ mod session;
 mod step7;
 mod step_values;
 mod steps;
+mod timed;
 mod transcript;
 mod values;
 mod watching;
@@ -47,6 +49,7 @@ pub use run::{Finished, Prepared};
 pub use session::Session;
 pub use transcript::{Heading, Remark, Transcript};
 pub use values::Setting;
+pub use watching::RuleResult;
 
 #[cfg(test)]
 mod tests;

@@ -11,6 +11,7 @@ use super::program_rows::begun;
 use super::programs::NcPrograms;
 use super::session::Session;
 use super::steps::{Reader, Steps};
+use super::timed::Timed;
 use super::written::WrittenSteps;
 use crate::machine::Machine;
 use crate::source::Table;
@@ -46,7 +47,7 @@ impl Session {
         programs.load(&mut self.machine);
         self.book.captured_names = captured;
         self.follow_more(followed);
-        let mut plan = Plan::new(steps);
+        let mut plan = Plan::new(steps, Timed::default());
         loop {
             let Self { machine, book, trace, .. } = self;
             let note = &mut |machine: &Machine, text: &str| trace.note(machine.cycle() + 1, text);

@@ -1,14 +1,19 @@
 //! Executes the steps of a scenario in order. A caller steps the machine: the scenario runner at full speed, a server in real time.
 
+use std::sync::Arc;
+
 use super::failure::Failure;
 use super::passing::{Book, Next, Progress};
 use super::steps::{Action, Included, Step, Steps};
+use super::timed::Timed;
 use crate::machine::Machine;
 use crate::source::Place;
 
 /// The steps and the progress through them.
+#[derive(Clone)]
 pub(super) struct Plan {
-    steps: Steps,
+    steps: Arc<Steps>,
+    timed: Timed,
     index: usize,
     /// The steps at which a repetition continues, and how often its steps have run; the inner one last.
     repeated: Vec<(usize, u64)>,
@@ -17,8 +22,8 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(steps: Steps) -> Self {
-        Self { steps, index: 0, repeated: Vec::new(), progress: None }
+    pub(super) fn new(steps: Steps, timed: Timed) -> Self {
+        Self { steps: Arc::new(steps), timed, index: 0, repeated: Vec::new(), progress: None }
     }
 
     /// Executes steps until a cycle must pass or all steps are done. The caller steps the machine next. Passes each note to the caller.
@@ -28,6 +33,7 @@ impl Plan {
         machine: &mut Machine,
         note: &mut dyn FnMut(&Machine, &str),
     ) -> Result<Next, Failure> {
+        self.timed.go_on(book, machine, note)?;
         while let Some(step) = self.steps.steps.get(self.index) {
             if let &Action::Repeat { from, times } = &step.action {
                 self.repeat(from, times);
@@ -103,6 +109,16 @@ impl Plan {
         }
         missed.operands.splice(0..0, lines);
         Failure::Missed(missed)
+    }
+
+    /// Exchanges what happens at a time; the steps and their progress stay.
+    pub(super) fn happen(&mut self, timed: Timed) {
+        self.timed = timed;
+    }
+
+    /// The entries of `[[at]]` whose time did not come.
+    pub(super) fn remarks(&self) -> impl Iterator<Item = String> {
+        self.timed.remarks()
     }
 
     /// The steps, with those that they include.

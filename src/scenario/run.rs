@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use super::conditions::condition;
-use super::failure::{Failure, Missed};
+use super::failure::{Failure, Progress};
 use super::fields::{Named, in_the_case};
 use super::file::Scenario;
 use super::include::included_by;
 use super::operator::{Operator, Plan, Stage};
-use super::passing::Next;
 use super::session::Session;
 use super::steps::{Reader, Steps};
+use super::timed::Timed;
+use super::watching::RuleResult;
 use crate::control::Read;
 use crate::controls;
 use crate::expression::Expression;
@@ -21,24 +22,24 @@ use crate::plc::{Programs, step7};
 use crate::source::{Place, Problem};
 use crate::trace::{Curves, Head, Panel, Watch, Window};
 use crate::units::{ChannelNumber, Time};
-use crate::variables::Describe;
 
 /// A scenario that is ready to run: the machine is open, names are looked up, values are checked.
 pub struct Prepared {
-    session: Session,
-    plan: Plan,
-    head: Head,
-    causes: bool,
+    pub(super) session: Session,
+    pub(super) plan: Plan,
+    pub(super) head: Head,
+    pub(super) causes: bool,
     /// Where the scenario names its PLC program, if this is in another process.
-    process: Option<Place>,
+    pub(super) process: Option<Place>,
+    pub(super) progress: Progress,
 }
 
 /// A scenario after its run.
 pub struct Finished {
-    session: Session,
-    plan: Plan,
-    head: Head,
-    causes: bool,
+    pub(super) session: Session,
+    pub(super) plan: Plan,
+    pub(super) head: Head,
+    pub(super) causes: bool,
     /// The part of the trace that waveform and diagram show.
     pub window: Window,
     /// Why it ended early, if it did.
@@ -81,7 +82,7 @@ impl Scenario {
         };
         let mut steps = Steps::default();
         reader.steps(&self.steps, &mut steps)?;
-        let plan = Plan::new(steps);
+        let plan = Plan::new(steps, Timed::read(&self.at, &mut reader)?);
         let rules = self.rules(&mut reader, machine.cycle_time())?;
         let followed = std::mem::take(&mut reader.followed);
         let nc_programs = std::mem::take(&mut reader.programs);
@@ -120,7 +121,7 @@ impl Scenario {
         book.look_back(looks_back, machine);
         book.limit = Some(self.limit);
         book.watch_over(rules, followed, machine);
-        Ok(Prepared { session, plan, head, causes: self.causes, process })
+        Ok(Prepared { session, plan, head, causes: self.causes, process, progress: Progress::New })
     }
 
     /// The machine as the scenario changes it, before its steps.
@@ -140,6 +141,7 @@ impl Scenario {
             self.watch(&machine)?;
             let mut reader = Reader::new(&machine, &self.path);
             reader.steps(&self.steps, &mut Steps::default())?;
+            Timed::read(&self.at, &mut reader)?;
             self.rules(&mut reader, machine.cycle_time()).map(drop)
         });
         checked.map_err(|problem| in_the_case(problem, self.case().as_deref()))
@@ -264,82 +266,6 @@ impl Scenario {
 }
 
 impl Prepared {
-    /// Runs the steps in order until one fails.
-    #[must_use]
-    pub fn run(self) -> Finished {
-        self.run_until(None)
-    }
-
-    /// The same, but ends after the last cycle up to this time, if a time is given and the scenario lasts so long.
-    #[must_use]
-    pub fn run_until(self, end: Option<Time>) -> Finished {
-        self.run_with(end, &mut |_| {})
-    }
-
-    /// The same, and shows the machine after each cycle.
-    #[must_use]
-    pub fn run_with(mut self, end: Option<Time>, look: &mut dyn FnMut(&Machine)) -> Finished {
-        let begun = self.session.machine.begin_program();
-        let mut unusable = begun.err().map(|problem| match &self.process {
-            Some(place) => problem.at(place),
-            None => problem,
-        });
-        let mut is_cut = false;
-        let failure = loop {
-            if let Some(problem) = unusable.take() {
-                break Some(problem.into());
-            }
-            let Session { machine, book, trace, .. } = &mut self.session;
-            let next = book.time(machine) + machine.cycle_time();
-            if end.is_some_and(|end| next > end) {
-                is_cut = true;
-                break None;
-            }
-            let note = &mut |machine: &Machine, text: &str| trace.note(machine.cycle() + 1, text);
-            match self.plan.go_on(book, machine, note) {
-                Err(failure) => break Some(failure),
-                Ok(Next::Over) => break None,
-                Ok(Next::Cycle) => self.session.cycle(),
-            }
-            look(&self.session.machine);
-            let Session { machine, book, trace, .. } = &mut self.session;
-            let ended = self.plan.end_cycle(book, machine);
-            for note in book.take_notes() {
-                trace.note(machine.cycle(), note);
-            }
-            if let Err(failure) = ended {
-                break Some(failure);
-            }
-            if let Some(failure) = self.end_of_process() {
-                break Some(failure);
-            }
-        };
-        let Session { machine, book, .. } = &mut self.session;
-        // A run that was to end here is not judged by what its rules still wait for.
-        let failure = if is_cut { None } else { book.finish(failure, machine) };
-        let failure = failure.map(|failure| failure.of_case(self.head.case.as_deref()));
-        let Self { session, plan, head, causes, .. } = self;
-        Finished { session, plan, head, causes, window: Window::default(), failure }
-    }
-
-    /// The failure of a PLC process that has ended or is silent. The PLC is then in STOP, and no step of the scenario is a test of it.
-    fn end_of_process(&self) -> Option<Failure> {
-        let place = self.process.as_ref()?;
-        let machine = &self.session.machine;
-        let fault = machine.plc_fault()?;
-        let alarms = machine.variables().alarms.iter();
-        let alarms = alarms.map(|alarm| format!("{} {}", machine.alarm_name(alarm.number), machine.alarm_text(alarm)));
-        let missed = Missed {
-            place: Some(place.clone()),
-            time: self.session.time(),
-            case: None,
-            what: fault.to_owned(),
-            operands: Vec::new(),
-            alarms: alarms.collect(),
-        };
-        Some(missed.into())
-    }
-
     /// Returns the machine, for a caller that steps it, the operator that executes the scenario, and the signals of the trace.
     #[must_use]
     pub fn into_operator(self) -> (Machine, Operator, Watch) {
@@ -436,6 +362,7 @@ impl Finished {
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let mut remarks = self.session.book.remarks();
+        remarks.extend(self.plan.remarks());
         remarks.extend(self.stop_of_plc());
         remarks
     }
@@ -451,6 +378,12 @@ impl Finished {
     #[must_use]
     pub fn margins(&self) -> Vec<String> {
         self.session.book.margins()
+    }
+
+    /// What became of each rule, in the order of the file: `never`, `always`, `[[rule]]`.
+    #[must_use]
+    pub fn rules(&self) -> Vec<RuleResult> {
+        self.session.book.rules()
     }
 
     /// Its steps, with those that it includes.

@@ -167,17 +167,21 @@ impl Book {
         remarks
     }
 
+    /// What became of each rule.
+    pub(super) fn rules(&self) -> Vec<RuleResult> {
+        let of_rule = |summary: Summary<'_>| {
+            let (name, in_cycles) = name(summary.rule);
+            let has_begun = !in_cycles || summary.begun > 0;
+            let margin = summary.margin.map(|margin| margin.amount);
+            RuleResult { name, in_cycles, has_begun, is_broken: summary.breaches > 0, margin }
+        };
+        self.monitor.summaries().map(of_rule).collect()
+    }
+
     /// The smallest margin of each rule.
     pub(super) fn margins(&self) -> Vec<String> {
         let of_rule = |summary: Summary<'_>| {
-            let rule = summary.rule;
-            let (name, is_watch) = match (&rule.name, &rule.claim) {
-                (Some(name), Claim::Follows(_)) => (name.clone(), true),
-                (Some(name), Claim::Always(_) | Claim::Never(_)) => (name.clone(), false),
-                (None, Claim::Always(condition)) => (format!("always {}", condition.source()), false),
-                (None, Claim::Never(condition)) => (format!("never {}", condition.source()), false),
-                (None, Claim::Follows(consequence)) => (consequence.when.source().to_owned(), true),
-            };
+            let (name, is_watch) = name(summary.rule);
             let margin = match (summary.margin, is_watch) {
                 (Some(margin), true) => {
                     let cycles = margin.amount;
@@ -195,6 +199,32 @@ impl Book {
             format!("margin of `{name}`: {margin}")
         };
         self.monitor.summaries().map(of_rule).collect()
+    }
+}
+
+/// What became of a rule in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RuleResult {
+    /// Its name, or its condition.
+    pub name: String,
+    /// Whether it is a consequence, whose margin is in cycles; else the margin is in the unit of the compared value.
+    pub in_cycles: bool,
+    /// Whether its condition became true, for a consequence.
+    pub has_begun: bool,
+    /// Whether it is broken.
+    pub is_broken: bool,
+    /// Its smallest margin, if it was measured.
+    pub margin: Option<f64>,
+}
+
+/// The name of a rule, and whether it is a consequence.
+fn name(rule: &Rule) -> (String, bool) {
+    match (&rule.name, &rule.claim) {
+        (Some(name), Claim::Follows(_)) => (name.clone(), true),
+        (Some(name), Claim::Always(_) | Claim::Never(_)) => (name.clone(), false),
+        (None, Claim::Always(condition)) => (format!("always {}", condition.source()), false),
+        (None, Claim::Never(condition)) => (format!("never {}", condition.source()), false),
+        (None, Claim::Follows(consequence)) => (consequence.when.source().to_owned(), true),
     }
 }
 

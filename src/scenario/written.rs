@@ -36,12 +36,20 @@ impl WrittenSteps {
         if let Some((key, node)) = misspelt {
             return Err(node.place.problem(format!("expected `[[step]]`, found `{key}`"), "did you mean `[[step]]`?"));
         }
+        Ok((head, Self::of(written, file)?))
+    }
+
+    /// The steps in the value of the key `step` of a file.
+    ///
+    /// # Errors
+    /// It is no list of tables, or it has none.
+    pub(super) fn of(written: Option<Node>, file: &str) -> Result<Self, Problem> {
         let mut steps = Vec::new();
         each_step(written, &Place::file(file), |step| {
             steps.push(step);
             Ok(())
         })?;
-        Ok((head, Self::Tables(steps.into())))
+        Ok(Self::Tables(steps.into()))
     }
 
     fn read_in_parts(text: &str, file: &str) -> Option<(Table, Self)> {

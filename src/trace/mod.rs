@@ -64,6 +64,7 @@ mod past;
 mod places;
 mod printable;
 mod record;
+mod seen;
 mod svg;
 mod text;
 mod value;

@@ -3,6 +3,7 @@
 //! All files form one binary, because each test binary links the library again.
 
 mod archives;
+mod campaign;
 mod causes;
 mod cited_rules;
 mod cli;

@@ -69,9 +69,9 @@ pub(super) enum Format {
 
 /// One of several parts of equal size, counted from one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Shard {
-    pub(super) part: usize,
-    pub(super) of: usize,
+pub(crate) struct Shard {
+    pub(crate) part: usize,
+    pub(crate) of: usize,
 }
 
 impl FromStr for Shard {

@@ -12,7 +12,7 @@ mod suite;
 mod watch;
 mod work;
 
-pub(super) use arguments::Arguments;
+pub(super) use arguments::{Arguments, Shard};
 
 use super::output::Output;
 use crate::plc::Programs;
