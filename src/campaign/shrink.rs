@@ -71,7 +71,7 @@ impl Spec {
                 (choices, missed) = (fewer, now);
             }
         }
-        let base: Vec<Choice> = choices.iter().map(|one| Choice { text: String::new(), edits: Vec::new() }).collect();
+        let base: Vec<Choice> = choices.iter().map(|_| Choice { text: String::new(), edits: Vec::new() }).collect();
         let is_needed = choices.iter().any(|choice| !choice.edits.is_empty());
         // Then rules, conditions and steps: halves first, then single ones, the last ones first.
         for key in LISTS {
@@ -186,7 +186,9 @@ impl Spec {
         edit_list(&mut table, "rule", |rules| rules.retain(|rule| !is_sometimes(rule)));
         let place = table.place.clone();
         let node = |value| Node { place: place.clone(), value };
-        let title = format!("{} [case {} of {}]", self.base_title(), record.case, self.title);
+        let base = self.base_title();
+        let of = if base == self.title { String::new() } else { format!(" of {}", self.title) };
+        let title = format!("{base} [case {}{of}]", record.case);
         let _ = table.put(&["title"], &place, node(Value::Text(title)));
         let mut text = String::new();
         text += &format!(

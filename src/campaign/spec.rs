@@ -167,6 +167,12 @@ impl Spec {
         Scenario::of_table(applied(&self.base, choices)?, &self.scenario)
     }
 
+    /// Whether a value is bisected.
+    #[must_use]
+    pub fn is_bisected(&self) -> bool {
+        self.bisected().is_some()
+    }
+
     /// The place of a dimension that is bisected, and its limits.
     pub(super) fn bisected(&self) -> Option<(usize, &[String], f64, f64)> {
         self.dimensions.iter().enumerate().find_map(|(index, dimension)| match &dimension.values {

@@ -97,8 +97,7 @@ fn run(path: &Path, arguments: &Arguments, programs: &Programs, output: &mut Out
         (Some(limit), cases) => cases.map_or(limit, |cases| cases.min(limit)),
         (None, Ok(cases)) if all <= WITHOUT_LIMIT => cases,
         (None, _) => {
-            let one = one_case(&spec, programs);
-            let hours = one.as_secs_f64() * all as f64 / jobs as f64 / 3600.0;
+            let hours = one_case(&spec, programs).as_secs_f64() * all as f64 / jobs as f64 / 3600.0;
             let what = format!(
                 "expected at most {WITHOUT_LIMIT} cases, found {all}: about {hours:.0} hours on {jobs} processors"
             );
@@ -131,13 +130,12 @@ fn run(path: &Path, arguments: &Arguments, programs: &Programs, output: &mut Out
         output.line(format!("  {name}: {count} {}", if count == 1 { "value" } else { "values" }));
     }
     if !left.is_empty() {
-        let one = one_case(&spec, programs);
-        let share = left.len() as f64 / units.max(1) as f64;
-        let seconds = one.as_secs_f64() * cases as f64 * share / jobs as f64;
-        output.remark(format!(
-            "{cases} cases; one alone takes {:.3} s: at most about {seconds:.0} s on {jobs} processors",
-            one.as_secs_f64()
-        ));
+        // With bisection, the first unit is a whole interval.
+        let one = one_case(&spec, programs).as_secs_f64();
+        let runs = if spec.is_bisected() { units } else { cases };
+        let seconds = one * runs as f64 * (left.len() as f64 / units.max(1) as f64) / jobs as f64;
+        let noun = if spec.is_bisected() { "intervals" } else { "cases" };
+        output.remark(format!("{runs} {noun}; one alone takes {one:.3} s: about {seconds:.0} s on {jobs} processors"));
     }
     parallel(&spec, &left, cases, jobs, programs, &mut |records| {
         for record in records {
