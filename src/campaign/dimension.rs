@@ -20,7 +20,7 @@ pub(super) enum Values {
     /// These.
     List(Vec<Choice>),
     /// Numbers of a distribution for a key: as many as cases need, or a fixed number of them.
-    Drawn { key: Vec<String>, distribution: Distribution, count: u64, decimals: i32 },
+    Drawn { key: Vec<String>, distribution: Distribution, count: u64, decimals: usize },
     /// A range that is bisected.
     Between { key: Vec<String>, low: f64, high: f64 },
 }
@@ -68,7 +68,7 @@ impl Dimension {
         match &self.values {
             Values::List(list) => {
                 let index = usize::try_from(index).unwrap_or(usize::MAX);
-                list.get(index).cloned().unwrap_or(Choice { text: "as written".to_owned(), edits: Vec::new() })
+                list.get(index).cloned().unwrap_or_else(|| Choice { text: "as written".to_owned(), edits: Vec::new() })
             }
             Values::Drawn { key, distribution, decimals, .. } => {
                 let value = rounded(distribution.draw(seed, [number, index]), *decimals);
@@ -110,7 +110,14 @@ pub(super) fn values(key: Vec<String>, node: Node, bisected: bool) -> Result<Val
         }
         Value::Table(mut table) => {
             let mut number = |key: &'static str| table.take(key).map(|node| node.number("a number")).transpose();
-            let (low, high, step, decimals) = (number("from")?, number("to")?, number("step")?, number("decimals")?);
+            let (low, high, step) = (number("from")?, number("to")?, number("step")?);
+            let decimals = match table.take("decimals") {
+                Some(node) => match usize::try_from(node.integer("a number of decimals")?) {
+                    Ok(number @ 0..=12) => Some(number),
+                    _ => return Err(node.expected("a number of decimals, 0 to 12", "write decimals = 3")),
+                },
+                None => None,
+            };
             let count = table.take("count").map(|node| node.integer("a number of values")).transpose()?;
             let drawn = [pair(table.take("uniform"))?, pair(table.take("normal"))?];
             table.finish()?;
@@ -136,7 +143,7 @@ pub(super) fn values(key: Vec<String>, node: Node, bisected: bool) -> Result<Val
                     Ok(Values::List(list))
                 }
                 (None, None, [Some(_), None] | [None, Some(_)]) if !bisected => {
-                    let decimals = decimals.unwrap_or(6.0).clamp(0.0, 12.0) as i32;
+                    let decimals = decimals.unwrap_or(6);
                     let Some(count) = count.and_then(|count| u64::try_from(count).ok()).filter(|count| *count > 0)
                     else {
                         return refused("a `count` above 0 beside a distribution");
@@ -168,7 +175,6 @@ fn pair(node: Option<Node>) -> Result<Option<(f64, f64)>, Problem> {
 }
 
 /// A number with so many decimals: the number that its text reads as.
-pub(super) fn rounded(value: f64, decimals: i32) -> f64 {
-    let decimals = usize::try_from(decimals).unwrap_or(0);
+pub(super) fn rounded(value: f64, decimals: usize) -> f64 {
     format!("{value:.decimals$}").parse().unwrap_or(value)
 }

@@ -59,8 +59,11 @@ pub struct Summary {
     pub boundaries: Vec<Boundary>,
     /// The index of the value that is bisected, and its results for each combination of the others.
     bisected: Option<usize>,
-    intervals: BTreeMap<Vec<(String, String)>, Vec<(f64, bool)>>,
+    intervals: BTreeMap<Values, Vec<(f64, bool)>>,
 }
+
+/// What varies, and its values.
+type Values = Vec<(String, String)>;
 
 /// Where a result changes.
 #[derive(Clone, Debug, PartialEq)]

@@ -62,7 +62,7 @@ impl<'a> Base<'a> {
         let mut times = vec![Time::ZERO];
         let mut end = Time::ZERO;
         loop {
-            end = end + cycle;
+            end += cycle;
             prepared.advance(end);
             let (time, is_over) = prepared.progress();
             // The steps that were done before this cycle began when it began.
@@ -251,9 +251,9 @@ pub(super) fn jitters(
         let cycles = table
             .take("cycles")
             .ok_or_else(|| place.problem("expected the key `cycles` in [[jitter]], found none", "write cycles = 3"))?;
-        let cycles = match u64::try_from(cycles.integer("a number of cycles")?) {
-            Ok(number @ 1..=10_000) => number,
-            _ => return Err(cycles.expected("a number of cycles, 1 to 10000", "write cycles = 3")),
+        let number = u64::try_from(cycles.integer("a number of cycles")?);
+        let Ok(cycles @ 1..=10_000) = number else {
+            return Err(cycles.expected("a number of cycles, 1 to 10000", "write cycles = 3"));
         };
         let mut time = |key: &'static str, usual: Time| {
             let Some(node) = table.take(key) else { return Ok(usual) };
