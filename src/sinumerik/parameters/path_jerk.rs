@@ -4,7 +4,6 @@
 use crate::motion::path::{LONGEST_WINDOW, PATH_AXES};
 use crate::sinumerik::machine_data::MachineData;
 use crate::sinumerik::parameters::axis::AxisParameters;
-use crate::sinumerik::parameters::programs::ProgramAxes;
 use crate::units::{AxisNumber, PerAxis, Position, Time};
 
 /// What the jerk limitation of a path (SOFT) depends on.
@@ -23,7 +22,7 @@ pub(in crate::sinumerik) struct PathJerk {
 impl PathJerk {
     pub(super) fn new(
         data: &MachineData,
-        own: &ProgramAxes,
+        path: &[AxisNumber],
         axes: &PerAxis<AxisParameters>,
         (path_jerk, cycle): (f64, Time),
     ) -> Self {
@@ -31,10 +30,10 @@ impl PathJerk {
         let turn = |axis: AxisNumber| if axes[axis].rotary { 360.0 * Position::PER_USER_UNIT } else { METRE };
         let time = |axis: &AxisNumber| axes[*axis].maximum_acceleration / (data.axes[*axis].max_ax_jerk * turn(*axis));
         let mut acceleration = [0.0; PATH_AXES];
-        for (place, axis) in own.path.iter().enumerate() {
+        for (place, axis) in path.iter().enumerate() {
             acceleration[place] = axes[*axis].maximum_acceleration;
         }
-        let of_axes = own.path.iter().map(time).fold(0.0, f64::max);
+        let of_axes = path.iter().map(time).fold(0.0, f64::max);
         Self { of_axes, of_path: path_jerk * METRE, acceleration, cycle: cycle.seconds() }
     }
 

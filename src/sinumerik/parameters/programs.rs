@@ -291,7 +291,7 @@ pub(in crate::sinumerik) fn programs(
     let has_master = spindles.iter().any(|(number, _)| *number == md.spind_def_master_spind);
     let own_axes = program_axes(data, md, channel, axes);
     ProgramParameters {
-        jerk: PathJerk::new(data, &own_axes, axes, (md.max_path_jerk, cycle)),
+        jerk: PathJerk::new(data, &own_axes.path, axes, (md.max_path_jerk, cycle)),
         axes: own_axes,
         master_spindle: if has_master { md.spind_def_master_spind } else { 0 },
         spindles,
