@@ -251,10 +251,11 @@ fn a_cold_restart_resets_plc_memory_and_program_and_a_warm_one_does_not() {
     machine.queue(Command::PlcStop).unwrap();
     run(&mut machine, 1);
     let all = |machine: &Machine| ["MB0", "MB1", "QB3", "DB31.DBX1.5", "DB11.DBX0.2"].map(|name| get(machine, name));
-    assert_eq!(all(&machine), [5, 7, 9, 1, 1]);
+    // P-150: STOP resets the outputs and the signals to the NCK, and keeps flags and the selection of a measuring system.
+    assert_eq!(all(&machine), [5, 7, 0, 1, 0]);
     machine.queue(Command::PlcRun).unwrap();
     run(&mut machine, 1);
-    assert_eq!(all(&machine), [6, 7, 9, 1, 1]);
+    assert_eq!(all(&machine), [6, 7, 0, 1, 0]);
     machine.queue(Command::PlcColdRestart).unwrap();
     run(&mut machine, 1);
     assert_eq!(all(&machine), [1, 0, 0, 0, 0]);

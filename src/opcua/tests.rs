@@ -158,7 +158,9 @@ fn all_nodes_of_the_tree_can_be_read() {
         let signal = tree.find("/Plc/DB31.DBX60.4").unwrap();
         assert!(signal.description.contains("referenced_synchronized_1"), "{}", signal.description);
         assert!(tree.find("/Channel/MachineAxis/actToolBasePos[u1,2]").is_some());
-        assert!(tree.find("/Channel/MachineAxis/actToolBasePos[u1,3]").is_none());
+        // X, Y and XF.
+        assert!(tree.find("/Channel/MachineAxis/actToolBasePos[u1,3]").is_some());
+        assert!(tree.find("/Channel/MachineAxis/actToolBasePos[u1,4]").is_none());
     });
 }
 

@@ -7,6 +7,7 @@ use crate::image::{Part, raw_value};
 use crate::machine::{FaultKind, Switch};
 use crate::plc::Programs;
 use crate::scenario::Scenario;
+use crate::scenario::program_rows::program_rows;
 use crate::trace::{Trace, Watch};
 use crate::units::{ChannelNumber, Position};
 
@@ -38,6 +39,7 @@ fn runs_again(heading: &Heading<'_>, edges: &[(u64, Vec<Command>)], end: u64) ->
         transcript.edge(&machine, &[]);
         machine.step();
         trace.extend(machine.recorder());
+        trace.extend_causes(machine.cycle(), program_rows(&machine));
         machine.drain();
         trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
     }
