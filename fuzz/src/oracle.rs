@@ -251,8 +251,11 @@ impl Listener {
         assert!(self.is_set_up, "nothing is served before the setup");
         match parameter {
             [4, count] => {
-                assert_eq!(*count, request.parameter[1], "one value for each item");
-                self.judge_values(&items(&request.parameter[2..], (*count).into()), data);
+                // A read without items is answered without items, also if even their number is missing.
+                let (asked, rest) =
+                    request.parameter[1..].split_first().map_or((0, &[][..]), |(asked, rest)| (*asked, rest));
+                assert_eq!(*count, asked, "one value for each item");
+                self.judge_values(&items(rest, asked.into()), data);
             }
             [5, count] => {
                 assert_eq!(*count, request.parameter[1], "one return code for each item");
