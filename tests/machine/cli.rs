@@ -551,11 +551,11 @@ fn a_step_7_program_is_checked_with_file_line_and_network() {
         text.contains("data blocks that the machine must have: DB31\n") && text.contains("no findings\n"),
         "{text}"
     );
-    let (code, text) = check("CALL FC 77;\nCALL SFC 79;");
+    let (code, text) = check("CALL FC 77;\nCALL SFC 90;");
     assert_eq!(code, Some(1), "{text}");
     assert!(text.contains("main.awl:4:1: OB1, network 1: FC77 is called and is nowhere\n"), "{text}");
     assert!(
-        text.contains("not supported: 1\n") && text.contains("main.awl:5:1: OB1, network 1: SFC79 is not built in"),
+        text.contains("not supported: 1\n") && text.contains("main.awl:5:1: OB1, network 1: SFC90 is not built in"),
         "{text}"
     );
     let (code, text) = check("A M 0.9;");
