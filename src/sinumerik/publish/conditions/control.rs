@@ -325,7 +325,11 @@ impl Look<'_> {
         let what = format!("axes of {} that are not stationary", self.channel_name(channel));
         let holds = !standing.has_all_of(axes);
         Fact::new(what, self.without(axes, standing), "one", holds)
-            .after(|| Condition::Any(axes.iter().map(|axis| self.stationary_no_more(axis)).collect()))
+            // A spindle in speed control does not count (S-02).
+            .after(|| {
+                let axes = axes.iter().filter(|axis| self.state.spindles[*axis].is_none());
+                Condition::Any(axes.map(|axis| self.stationary_no_more(axis)).collect())
+            })
     }
 
     fn all_stand(self, channel: ChannelNumber) -> Condition {

@@ -66,7 +66,11 @@ impl Look<'_> {
         let strobe = axis_to_nck::replacement_activation_signal;
         let waits = self.state.owners.of(axis).request.is_some_and(|request| request.by.is_by_plc());
         if waits {
-            return self.axis(axis, axis_from_nck::axis_replacement_possible, true);
+            let what = format!("exchange of {} that the PLC asks for", self.axis_name(axis));
+            return Condition::All(vec![
+                self.axis(axis, axis_from_nck::axis_replacement_possible, true),
+                Fact::new(what, "waits", "done", false).into(),
+            ]);
         }
         Condition::All(vec![
             self.axis(axis, axis_to_nck::request_plc_axis, takes),

@@ -166,16 +166,17 @@ impl Look<'_> {
             .map(|axis| self.axis_name(*axis))
             .collect();
         let rests = self.state.program_rests(run, &stage);
-        let found = match (rests, moving.is_empty()) {
-            (true, _) => "none".to_owned(),
-            (false, true) => "the path".to_owned(),
-            (false, false) => moving.join(", "),
-        };
+        if rests {
+            // A gear change, for example, keeps the block: nothing is named that was not tested.
+            let what = format!("what keeps the program of {}, whose axes are at rest", self.channel_name(channel));
+            return Fact::new(what, "its block", "nothing", false).into();
+        }
+        let found = if moving.is_empty() { "the path".to_owned() } else { moving.join(", ") };
         Fact::new(
             format!("what of {} still moves, before the program stops", self.channel_name(channel)),
             found,
             "none",
-            rests,
+            false,
         )
         .into()
     }
