@@ -152,7 +152,7 @@
 //! | a module | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
 
 // A build without the module has no documentation of it to link to.
-#![cfg_attr(not(feature = "opcua"), doc = "\n[`opcua`]: #modules-and-their-imports")]
+#![cfg_attr(not(feature = "opcua"), doc = "", doc = " [`opcua`]: #modules-and-their-imports")]
 
 pub mod campaign;
 #[cfg(feature = "cli")]
