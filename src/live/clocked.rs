@@ -11,7 +11,7 @@ use super::inbox::Order;
 use super::record::Recording;
 use super::seen::Seen;
 use crate::machine::Machine;
-use crate::scenario::{Operator, State};
+use crate::scenario::{Operator, State, program_rows};
 use crate::source::Problem;
 use crate::trace::{Trace, Watch};
 use crate::units::Time;
@@ -164,6 +164,7 @@ impl Clocked {
         }
         if let (Some((trace, _)), &mut Some(most)) = (trace, &mut *trace_bytes) {
             trace.extend(machine.recorder());
+            trace.extend_causes(machine.cycle(), program_rows(machine));
             trace.note_fault(machine.recorder(), machine.program_fault());
             trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
             if trace.bytes() > most {

@@ -9,6 +9,7 @@ use tokio::sync::Notify;
 
 use super::seen::Seen;
 use crate::machine::Machine;
+use crate::scenario::program_rows;
 use crate::trace::Trace;
 use crate::units::Time;
 
@@ -57,6 +58,7 @@ impl Collected {
     /// Takes over the record of a step, before it is drained.
     pub(super) fn extend(&mut self, machine: &Machine) {
         self.trace.extend(machine.recorder());
+        self.trace.extend_causes(machine.cycle(), program_rows(machine));
         self.trace.note_fault(machine.recorder(), machine.program_fault());
         self.trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
         self.has_news = true;

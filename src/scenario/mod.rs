@@ -45,6 +45,8 @@ pub use include::{included_by, names_machine};
 pub use matrix::Variant;
 pub use one_step::commands;
 pub use operator::{Operator, Stage, State};
+#[cfg(feature = "live")]
+pub(crate) use program_rows::program_rows;
 pub use run::{Finished, Prepared};
 pub use session::Session;
 pub use transcript::{Heading, Remark, Transcript};

@@ -8,7 +8,7 @@ use crate::plc::{ProgramCause, Tested};
 use crate::trace::{ProgramRow, Trace};
 
 /// Why the PLC program changed bits in the last cycle, for the trace.
-pub(super) fn program_rows(machine: &Machine) -> impl Iterator<Item = ProgramRow> {
+pub(crate) fn program_rows(machine: &Machine) -> impl Iterator<Item = ProgramRow> {
     let names = machine.names();
     let tested = move |tested: &Tested| {
         Some(match *tested {
