@@ -2,7 +2,6 @@
 
 use crate::control::{Condition, Fact, fact, yes};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
-use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::publish::conditions::look::{Look, Row, length};
 use crate::sinumerik::single_axis::state::{OrderedBy, Outcome, SpindleOrder};
 use crate::units::{AxisNumber, Position};
@@ -173,7 +172,7 @@ impl Look<'_> {
     fn outcome_is_over(self, axis: AxisNumber, left: &str, is: impl Fn(Outcome) -> bool) -> Condition {
         let holds = !is(self.state.single.axes[axis].outcome);
         self.shown_outcome(axis, format!("not {left}"), holds).after(|| {
-            if self.state.owners.of(axis).holder != Holder::Plc {
+            if self.spindle(axis).is_none() && !self.state.single.axes[axis].start_was {
                 let what = format!("order of the PLC for {} after this outcome", self.axis_name(axis));
                 return Fact::new(what, "none", "one", false).into();
             }
