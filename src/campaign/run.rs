@@ -244,7 +244,8 @@ impl Spec {
     }
 }
 
-/// The time of the first thing that happens at a time; `None` if there is none, or one in cycles, whose time only the run shows.
+/// The earliest time of the `[[at]]` entries of a case. `None` if it has no entry, or one with a time in cycles: their length is known only
+/// in the run.
 fn first_time(choices: &[Choice]) -> Option<Time> {
     let mut first: Option<Time> = None;
     for edit in choices.iter().flat_map(|choice| &choice.edits) {

@@ -11,8 +11,8 @@ pub(super) struct Driving {
     /// In thousandths of real time.
     speed: AtomicU32,
     is_paused: AtomicBool,
-    /// A step is under way or about to begin. It is set before the stepping thread asks whether the machine pauses, so whoever pauses the
-    /// machine and then finds no step under way knows that none follows.
+    /// A step is running or about to begin. The stepping thread sets it before it asks whether the machine pauses. So a caller that pauses
+    /// the machine and then finds it clear knows that no step follows.
     is_stepping: AtomicBool,
     /// The steps that a paused machine may still take.
     steps: AtomicU64,

@@ -7,8 +7,8 @@
 //! The formats, sessions and subscriptions are those of the library async-opcua. `node_id.rs` reads ids, `reading.rs` and `writing.rs` have
 //! the values and their types, `tree.rs` the nodes that browsing shows, `cnc.rs` the objects of
 //! OPC 40502, `attributes.rs` what is asked of a node besides its value,
-//! `watching.rs` the subscriptions, `alarms.rs` the events of alarms, `manager.rs` gives all of it to the library, `rights.rs`, `door.rs` and `certificates.rs`
-//! have who may do what, `options.rs` and `server.rs` the options, the limits, the thread and the listener.
+//! `watching.rs` the subscriptions, `alarms.rs` the events of alarms, `manager.rs` gives all of it to the library. `rights.rs`, `door.rs` and
+//! `certificates.rs` decide who may do what. `options.rs` has the options, `server.rs` the limits, the thread and the listener.
 
 mod alarms;
 mod attributes;

@@ -1,5 +1,5 @@
-//! The identifiers of the namespace `SinumerikVarProvider`: texts whose upper and lower case differ. Most of them cannot be found by
-//! browsing, because they have any number of indices. This file reads only the text; `place.rs` finds the machine's own.
+//! The identifiers of the namespace `SinumerikVarProvider`. They are texts in which upper and lower case differ. Most of them cannot be found by
+//! browsing, because they have any number of indices. This file reads only the text; `reading.rs` finds what the machine has.
 //!
 //! | text | meaning |
 //! |---|---|

@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Runs only the first N cases.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     limit: Option<u64>,
-    /// Goes on with a run that was interrupted: cases whose results are in the folder do not run again.
+    /// Continues an interrupted run. Cases that have a result in the folder do not run again.
     #[arg(long)]
     resume: bool,
     /// Number of cases that run at the same time [default: the number of processors].

@@ -170,7 +170,7 @@ impl<'a> Text<'a> {
         (found, second)
     }
 
-    /// The line of a second `$ELSE`, or of an `$ELSEIF` after `$ELSE`, in the `$IF` whose blocks begin in a given line.
+    /// The line of a second `$ELSE` or of an `$ELSEIF` behind `$ELSE`. The given line is the one in which the blocks of the `$IF` begin.
     pub(super) fn misplaced(self, from: u32) -> Option<u32> {
         let (mut depth, mut has_else) = (0_usize, false);
         for (line, head) in self.section(from) {
