@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::steps::{Action, Reader};
+use super::steps::Reader;
 use crate::machine::{Command, Machine};
 use crate::source::{Problem, Table, did_you_mean};
 
@@ -43,17 +43,5 @@ pub fn commands(step: Table, machine: &Machine, others: &[&'static str]) -> Resu
     }
     let place = step.place.clone();
     let step = Reader::new(machine, Path::new("")).step(step, place, None)?;
-    Ok(match step.action {
-        Action::Queue(commands) => commands.into_vec(),
-        Action::Handwheel(turn) => vec![turn.command(machine.cycle_time())],
-        Action::Pulse(..)
-        | Action::Run(_)
-        | Action::Wait(..)
-        | Action::Hold(..)
-        | Action::Expect(_)
-        | Action::Capture(_)
-        | Action::Image(_)
-        | Action::Nothing
-        | Action::Repeat { .. } => Vec::new(),
-    })
+    Ok(step.action.commands(machine.cycle_time()).unwrap_or_default())
 }

@@ -76,6 +76,25 @@ pub(super) enum Action {
     },
 }
 
+impl Action {
+    /// The commands of a verb that acts at once; `None` for one that takes time or judges.
+    pub(super) fn commands(&self, cycle: Time) -> Option<Vec<Command>> {
+        match self {
+            Self::Queue(commands) => Some(commands.to_vec()),
+            Self::Handwheel(turn) => Some(vec![turn.command(cycle)]),
+            Self::Pulse(..)
+            | Self::Run(_)
+            | Self::Wait(..)
+            | Self::Hold(..)
+            | Self::Expect(_)
+            | Self::Capture(_)
+            | Self::Image(_)
+            | Self::Nothing
+            | Self::Repeat { .. } => None,
+        }
+    }
+}
+
 /// A rotation of a handwheel. Its time becomes cycles when it begins, because power on can change their length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
@@ -194,18 +213,8 @@ impl<'a> Reader<'a> {
             ));
         }
         let action = self.action(verb, node, &mut table)?;
-        match &action {
-            Action::Queue(commands) => commands.iter().try_for_each(|command| self.judge(command, &place))?,
-            Action::Handwheel(turn) => self.judge(&turn.command(self.machine.cycle_time()), &place)?,
-            Action::Pulse(..)
-            | Action::Run(_)
-            | Action::Wait(..)
-            | Action::Hold(..)
-            | Action::Expect(_)
-            | Action::Capture(_)
-            | Action::Image(_)
-            | Action::Nothing
-            | Action::Repeat { .. } => {}
+        for command in action.commands(self.machine.cycle_time()).unwrap_or_default() {
+            self.judge(&command, &place)?;
         }
         self.refuse_foreign_modifiers(verb, &mut table)?;
         table.finish()?;

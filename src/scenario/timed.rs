@@ -90,18 +90,8 @@ fn event(mut entry: Table, reader: &mut Reader<'_>) -> Result<Event, Problem> {
     let time = duration(&time, "a time since the start of the scenario")?;
     let note = entry.take("note").map(|node| node.text("a note").map(Box::from)).transpose()?;
     let action = reader.step(entry, place.clone(), None)?.action;
-    match action {
-        Action::Queue(_) | Action::Handwheel(_) => Ok(Event { time, place, note, action }),
-        Action::Pulse(..)
-        | Action::Run(_)
-        | Action::Wait(..)
-        | Action::Hold(..)
-        | Action::Expect(_)
-        | Action::Capture(_)
-        | Action::Image(_)
-        | Action::Nothing
-        | Action::Repeat { .. } => {
-            Err(place.problem("expected a verb that acts at once, found one that takes time or judges", EXAMPLE))
-        }
+    if action.commands(reader.machine.cycle_time()).is_none() {
+        return Err(place.problem("expected a verb that acts at once, found one that takes time or judges", EXAMPLE));
     }
+    Ok(Event { time, place, note, action })
 }
