@@ -308,6 +308,11 @@ pub trait Control: Send + Sync + Debug {
         100.0
     }
 
+    /// The effective override of a spindle, in per cent. The default is 100 %, for a control without spindles.
+    fn spindle_override(&self, _axis: AxisNumber, _plc: PlcSide<'_>) -> f64 {
+        100.0
+    }
+
     /// The effective overrides of a channel, in per cent: feed and rapid traverse. The default is 100 %, for a control without overrides.
     fn channel_overrides(&self, _channel: ChannelNumber, _plc: PlcSide<'_>) -> [f64; 2] {
         [100.0; 2]

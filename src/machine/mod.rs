@@ -236,6 +236,12 @@ impl Machine {
         self.control.axis_override(axis, self.state.plc_side())
     }
 
+    /// The effective override of a spindle, in per cent.
+    #[must_use]
+    pub fn spindle_override(&self, axis: AxisNumber) -> f64 {
+        self.control.spindle_override(axis, self.state.plc_side())
+    }
+
     /// The effective overrides of a channel, in per cent: feed and rapid traverse.
     #[must_use]
     pub fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2] {

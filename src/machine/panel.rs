@@ -94,6 +94,10 @@ impl ControlValues for Panel<'_> {
         self.0.axis_override(axis)
     }
 
+    fn spindle_override(&self, axis: AxisNumber) -> f64 {
+        self.0.spindle_override(axis)
+    }
+
     fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2] {
         self.0.channel_overrides(channel)
     }

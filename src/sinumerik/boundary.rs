@@ -222,6 +222,10 @@ impl Control for Nck {
         Self::axis_override(self, &to_nck(plc).axes[axis])
     }
 
+    fn spindle_override(&self, axis: AxisNumber, plc: PlcSide<'_>) -> f64 {
+        Self::spindle_override(self, axis, &to_nck(plc).axes[axis])
+    }
+
     fn channel_overrides(&self, channel: ChannelNumber, plc: PlcSide<'_>) -> [f64; 2] {
         Self::channel_overrides(self, &to_nck(plc).channels[channel])
     }

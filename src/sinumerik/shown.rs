@@ -20,6 +20,13 @@ impl Nck {
         percent(self.parameters.axis_override(signals.feed_override(), signals.override_active()))
     }
 
+    /// The effective override of a spindle, in per cent; 100 % of an axis that is none.
+    #[must_use]
+    pub fn spindle_override(&self, axis: AxisNumber, signals: &AxisToNck) -> f64 {
+        let own = self.parameters.axes[axis].spindle.as_deref();
+        own.map_or(100.0, |own| percent(self.state.spindle_factor(axis, own, signals)))
+    }
+
     /// The effective feed and rapid traverse overrides of a channel, in per cent.
     #[must_use]
     pub fn channel_overrides(&self, signals: &ChannelToNck) -> [f64; 2] {

@@ -56,6 +56,10 @@ impl ControlValues for Knows {
         f64::from(axis.number()) * 10.0
     }
 
+    fn spindle_override(&self, axis: AxisNumber) -> f64 {
+        if axis.number() == 3 { 80.0 } else { 100.0 }
+    }
+
     fn channel_overrides(&self, _: ChannelNumber) -> [f64; 2] {
         [75.0, 50.0]
     }
@@ -307,6 +311,20 @@ fn the_program_that_runs_is_shown() {
     assert_eq!(read(&mut client, "82 41 00 01 00 00 12 01"), "05 00 00 00");
 }
 
+/// Axis 3 is spindle 1 (MD35000) and turns counter-clockwise at 500 rev/min.
+#[test]
+fn a_spindle_has_the_row_of_its_number() {
+    let mut client = client();
+    client.machine_data = Some(Box::new(Data));
+    let axis = AxisNumber::new(3).unwrap();
+    client.variables.axes[axis].velocity = -500.0;
+    assert_eq!(read(&mut client, "82 41 00 04 00 01 10 01"), "FF 09 00 02 01 00");
+    assert_eq!(read(&mut client, "82 41 00 02 00 01 72 01"), double(&[500.0]));
+    assert_eq!(read(&mut client, "82 41 00 04 00 01 72 01"), double(&[80.0]));
+    assert_eq!(read(&mut client, "82 41 00 09 00 01 72 01"), "FF 09 00 02 01 00");
+    assert_eq!(read(&mut client, "82 41 00 02 00 02 72 01"), "05 00 00 00");
+}
+
 /// -30 rev/min is C1F00000 as a float, big-endian.
 #[test]
 fn the_speed_of_a_motor_is_known_and_nothing_else_of_its_drive() {
@@ -461,6 +479,7 @@ impl MachineData for Data {
             (1, 30240, 0 | 1) => Some(Datum::Byte(1 + u8::try_from(index).unwrap())),
             (1, 34000, 0) => Some(Datum::Whole(-2)),
             (1, 36310, 0) => Some(Datum::Unsigned(0x8000_0001)),
+            (3, 35000, 0) => Some(Datum::Byte(1)),
             _ => None,
         }
     }

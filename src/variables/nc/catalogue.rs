@@ -67,7 +67,7 @@ pub const CATALOGUE: &[Variable] = &[
     // Spindles; the row is the number of the spindle (MD35000).
     row!("C/Spindle/actSpeed",                 Channel,   SSP,    0x0002, Double,    "F C T L", |v, c, l| of_spindle(v, c, l, |v, axis| v.variables.axes[axis].velocity.abs())),
     row!("C/Spindle/cmdSpeed",                 Channel,   SSP,    0x0003, Double,    "F C T L", |v, c, l| of_spindle(v, c, l, |v, axis| f64::from(v.memory.from_nck().axes[axis].spindle_s_function()))),
-    row!("C/Spindle/speedOvr",                 Channel,   SSP,    0x0004, Double,    "F C T L", |v, c, l| of_spindle(v, c, l, |v, axis| v.control.map_or(100.0, |control| control.axis_override(axis)))),
+    row!("C/Spindle/speedOvr",                 Channel,   SSP,    0x0004, Double,    "F C T L", |v, c, l| of_spindle(v, c, l, |v, axis| v.control.map_or(100.0, |control| control.spindle_override(axis)))),
     row!("C/Spindle/turnState",                Channel,   SSP,    0x0009, Word,      "F C T L", |v, c, l| of_spindle(v, c, l, turn_state)),
     row!("C/Spindle/spindleType",              Channel,   SSP,    0x000D, Word,      "F C T L", |v, c, l| of_spindle(v, c, l, |_, _| 0.0)),
     // Drives; the unit is the drive number.

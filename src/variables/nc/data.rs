@@ -43,6 +43,11 @@ pub trait ControlValues {
     /// The effective override of an axis, in per cent.
     fn axis_override(&self, axis: AxisNumber) -> f64;
 
+    /// The effective override of a spindle, in per cent. The default is a control without spindles.
+    fn spindle_override(&self, _axis: AxisNumber) -> f64 {
+        100.0
+    }
+
     /// The effective feed and rapid traverse overrides of a channel, in per cent.
     fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2];
 
