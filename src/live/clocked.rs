@@ -206,7 +206,7 @@ impl Clocked {
         }
         self.machine = history.back_to(cycle)?;
         self.operator = None;
-        self.causes = Causes::default();
+        self.causes.forget_after(cycle);
         self.collected = self.collected.take().map(|_| Collected::new(&self.machine));
         Ok(())
     }

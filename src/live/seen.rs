@@ -13,6 +13,7 @@ use super::diagnosis::Entry;
 use super::history::Reach;
 use crate::machine::{Machine, Snapshot};
 use crate::scenario::State;
+use crate::units::Time;
 use crate::variables::RaisedAlarm;
 
 /// The number of steps that are copied after a client has read.
@@ -59,7 +60,13 @@ impl Seen {
     /// Why a pending alarm was raised: the rule, and the inputs that were tested. `None` if it is not known.
     #[must_use]
     pub fn cause(&self, alarm: &RaisedAlarm) -> Option<&str> {
-        self.causes.of(alarm).map(|cause| &**cause)
+        self.causes.of(alarm)?.because.as_deref()
+    }
+
+    /// When a pending alarm was raised. `None` if it is not known.
+    #[must_use]
+    pub fn raised_at(&self, alarm: &RaisedAlarm) -> Option<Time> {
+        self.causes.of(alarm).map(|raised| raised.time)
     }
 
     /// The moments to which the machine can go back.

@@ -154,7 +154,7 @@ impl Hub {
         if shared.clients.is_empty() {
             return;
         }
-        let now = self.live.look(|seen| Now::of(seen, &self.live, &shared.past));
+        let now = self.live.look(|seen| Now::of(seen, &self.live));
         let step = event("step", &Step { now, edges, lost });
         let mut clients = std::mem::take(&mut shared.clients);
         let is_free = |client: &Client| client.sender.capacity() == client.sender.max_capacity();
@@ -172,8 +172,7 @@ impl Hub {
     }
 
     fn snapshot<'a>(&self, shared: &'a Shared, lagged: bool, client: Option<u64>) -> Snapshot<'a> {
-        let (now, values) =
-            self.live.look(|seen| (Now::of(seen, &self.live, &shared.past), values(seen.machine(), &self.catalogue)));
+        let (now, values) = self.live.look(|seen| (Now::of(seen, &self.live), values(seen.machine(), &self.catalogue)));
         Snapshot { now, values, writers: shared.past.writers.iter().collect(), recent: &shared.recent, lagged, client }
     }
 

@@ -1,6 +1,6 @@
 //! The machine as JSON: its state after a step, and what happened in some steps.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 use serde::Serialize;
 
@@ -92,27 +92,16 @@ pub(super) struct Edge {
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Written(f64, &'static str, Option<String>);
 
-/// What is known of the past: who wrote signals last, when and why alarms were raised.
+/// What is known of the past: who wrote signals last.
 #[derive(Debug, Default)]
 pub(super) struct Past {
     pub(super) writers: BTreeMap<usize, Written>,
-    /// The last times at which an alarm was raised: the machine can go back behind one of them.
-    alarms: BTreeMap<(String, String), VecDeque<Raised>>,
 }
-
-/// When and why an alarm was raised.
-type Raised = (f64, Option<String>);
-
-/// The times that are kept of one alarm.
-const RAISED: usize = 32;
 
 impl Past {
     /// Forgets what was after a time in seconds.
     pub(super) fn forget_after(&mut self, time: f64) {
         self.writers.retain(|_, written| written.0 <= time);
-        for times in self.alarms.values_mut() {
-            times.retain(|(raised, _)| *raised <= time);
-        }
     }
 }
 
@@ -159,11 +148,6 @@ pub(super) fn edges(lines: Vec<Line>, begin: Time, catalogue: &Catalogue, past: 
             }
             LineKind::Alarm(line) => {
                 let a = Some(format!("{} {}", line.name, line.text));
-                if line.raised {
-                    let times = past.alarms.entry((line.name, line.place)).or_default();
-                    times.push_back((t, line.because.clone()));
-                    times.drain(..times.len().saturating_sub(RAISED));
-                }
                 let v = Some(f64::from(u8::from(line.raised)));
                 Edge { a, v, by: "nck", why: line.because, kind: Some("alarm"), ..edge }
             }
@@ -179,7 +163,7 @@ pub(super) fn edges(lines: Vec<Line>, begin: Time, catalogue: &Catalogue, past: 
 }
 
 impl Now {
-    pub(super) fn of(seen: &Seen, live: &Handle, past: &Past) -> Self {
+    pub(super) fn of(seen: &Seen, live: &Handle) -> Self {
         let machine = seen.machine();
         let (names, variables) = (machine.names(), machine.variables());
         let axes = names.axes.iter().filter(|(_, name)| name.is_some()).map(|(axis, _)| {
@@ -217,7 +201,7 @@ impl Now {
             plc,
             overruns: live.pace().overruns,
             axes: axes.collect(),
-            alarms: variables.alarms.iter().map(|alarm| Alarm::of(alarm, machine, past)).collect(),
+            alarms: variables.alarms.iter().map(|alarm| Alarm::of(alarm, seen)).collect(),
             positions: positions.collect(),
             memory: [Part::Inputs, Part::Outputs, Part::Flags].map(|part| hex(machine.memory().part(part))),
             scenario: seen.scenario().map(|(state, index)| Scenario::of(state, index)),
@@ -227,12 +211,12 @@ impl Now {
 }
 
 impl Alarm {
-    fn of(alarm: &RaisedAlarm, machine: &Machine, past: &Past) -> Self {
+    fn of(alarm: &RaisedAlarm, seen: &Seen) -> Self {
+        let machine = seen.machine();
         let (name, place) = (machine.alarm_name(alarm.number), place_name(alarm.place, machine.names()));
         let row = machine.control().texts().alarm(alarm.number);
         let (cancelled_by, reaction) = row.map_or_else(Default::default, |row| (row.cancelled_by, row.reaction));
-        let known = past.alarms.get(&(name.clone(), place.clone())).and_then(VecDeque::back);
-        let (time, because) = known.cloned().map_or((None, None), |(time, because)| (Some(time), because));
+        let (time, because) = (seen.raised_at(alarm).map(Time::seconds), seen.cause(alarm).map(str::to_owned));
         Self { name, place, text: machine.alarm_text(alarm), because, time, cancelled_by, reaction }
     }
 }
