@@ -225,9 +225,10 @@ impl Cpu {
         self.observed.as_ref()?.contacts.at(at)
     }
 
-    /// Whether a logic string begins with a bit operation: a first check, but not behind `O`, where it goes on.
+    /// Whether a logic string begins with a bit operation: a first check, but not behind `O`, where it goes on, also with `NOT` between them.
     fn begins_with(&self, at: u32, begin: u32) -> Option<bool> {
-        let mut before = (begin..at).rev().map(|at| self.program.code[at as usize]).skip_while(|op| leaves_rlo(*op));
+        let before = (begin..at).rev().map(|at| self.program.code[at as usize]);
+        let mut before = before.skip_while(|op| leaves_rlo(*op) || matches!(op, Op::Not));
         Some(self.contact(at)?.is_first && before.next() != Some(Op::OrBeforeAnd))
     }
 

@@ -383,6 +383,19 @@ fn coverage_counts_statements_networks_branches_and_contacts() {
     ));
 }
 
+/// `O` keeps AN M 0.3 = 0, `NOT` inverts the RLO, and the bracket is 0: Q 0.0 would be 1 with M 0.3 = 0, so M 0.0 did not decide alone.
+#[test]
+fn behind_or_and_not_nothing_is_named_alone() {
+    let mut plc = Plc::of_statements("AN M 0.3; O; NOT; A( ; A M 0.0; ) ; = Q 0.0;");
+    plc.cpu.observe();
+    plc.memory.flags[0] = 0b1000;
+    plc.memory.outputs[0] = 1;
+    assert_eq!(seen(&mut plc), [(q(0), vec![])]);
+    plc.memory.flags[0] = 0;
+    plc.scan();
+    assert_eq!(plc.memory.outputs[0] & 1, 1);
+}
+
 /// Bit statements on M 0.0 to M 0.5.
 fn chain() -> impl Strategy<Value = String> {
     let operand = (prop_oneof![Just("A"), Just("AN"), Just("O"), Just("ON"), Just("X"), Just("XN")], 0..6_u8)
